@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <limits>
+
+namespace fastrt {
+
+using Vec2 = glm::vec2;
+using Vec3 = glm::vec3;
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// An axis-aligned box in world space. The default is empty: it contains nothing and extending it gives the other box.
+struct Aabb {
+  Vec3 lower{infinity};
+  Vec3 upper{-infinity};
+
+  void extend(const Vec3& point) {
+    lower = glm::min(lower, point);
+    upper = glm::max(upper, point);
+  }
+  void extend(const Aabb& other) {
+    lower = glm::min(lower, other.lower);
+    upper = glm::max(upper, other.upper);
+  }
+  bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+  Vec3 center() const { return 0.5F * lower + 0.5F * upper; }
+  Vec3 extent() const { return upper - lower; }
+};
+
+}  // namespace fastrt

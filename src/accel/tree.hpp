@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/accel/wide_node.hpp"
+
+#include <fastrt/column.hpp>
+#include <fastrt/math.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace fastrt {
+
+// What the builder knows of a primitive: its box, its id, and the group that it may share a leaf with.
+struct PrimitiveBox {
+  float lower[3];
+  std::uint32_t id;
+  float upper[3];
+  std::uint32_t group;
+};
+static_assert(sizeof(PrimitiveBox) == 32);
+
+// A node of the binary tree. count == 0: inner, its children are nodes[first] and nodes[first + 1].
+// Otherwise a leaf: primitives order[first] .. order[first + count - 1], all of one group.
+struct BinaryNode {
+  float lower[3];
+  std::uint32_t first;
+  float upper[3];
+  std::uint32_t count;
+};
+static_assert(sizeof(BinaryNode) == 32);
+
+// nodes[0] is the root; no nodes at all when there are no primitives.
+struct BinaryTree {
+  Column<BinaryNode> nodes;
+  Column<std::uint32_t> order;        // primitive ids, grouped by leaf
+  Column<std::uint8_t> group_of_leaf;  // per node: the leaf's group; 0 for inner nodes
+};
+
+struct BuildSettings {
+  int threads = 0;  // 0 takes every core. The tree is the same for any number.
+};
+
+// A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts blocks of `block_size`
+// primitives, not primitives. Leaves hold 1 .. block_size * max_leaf_blocks primitives of one group; at most
+// max_tree_depth levels. Reorders `boxes`. Boxes must be finite.
+BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings);
+
+// The wide tree: nodes in depth-first order, and for each group the primitive ids of its blocks, block_size a block,
+// -1 where a block is not full. The root is a child like any other: a node or, for few primitives, a leaf.
+struct WideTree {
+  Column<WideNode> nodes;
+  std::array<Column<std::int32_t>, max_groups> slots;
+  std::uint32_t root = no_child;  // no_child: the tree is empty
+  Aabb bounds;
+};
+
+// Collapses a binary tree so that each wide node adopts the grandchildren with the largest surface first.
+// Throws LimitError for more than max_blocks blocks of a group.
+WideTree collapse(const BinaryTree& tree, const BuildSettings& settings);
+
+// SAH cost of the wide tree: sum over nodes of area / root area (one visit each), and over leaves of
+// area * blocks / root area. Units: one node visit = one block test = 1.
+double sah_cost(const WideTree& tree);
+int tree_depth(const WideTree& tree);
+std::size_t leaf_count(const WideTree& tree);
+
+}  // namespace fastrt
