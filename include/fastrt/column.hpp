@@ -11,9 +11,10 @@
 
 namespace fastrt {
 
-// One column of a structure of arrays: a growable array of plain values whose memory starts at a cache line and may
-// be read (not written) up to column_padding values past its end, so that SIMD code needs no tail loops.
-// resize() leaves new values uninitialised: whoever fills a column in parallel touches its pages first.
+// One column of a structure of arrays: a growable array of plain values whose memory starts at a cache line
+// and may be read (not written) up to column_padding values past its end, so that SIMD code needs no tail
+// loops. resize() leaves new values uninitialised: whoever fills a column in parallel touches its pages
+// first.
 inline constexpr std::size_t column_alignment = 64;
 inline constexpr std::size_t column_padding = 16;
 
@@ -21,7 +22,7 @@ template <class T>
 class Column {
   static_assert(std::is_trivially_copyable_v<T>);
 
- public:
+public:
   using value_type = T;
 
   Column() = default;
@@ -48,7 +49,9 @@ class Column {
   std::size_t size() const noexcept { return size_; }
   bool empty() const noexcept { return size_ == 0; }
   // Bytes held, padding included.
-  std::size_t bytes() const noexcept { return data_ == nullptr ? 0 : (capacity_ + column_padding) * sizeof(T); }
+  std::size_t bytes() const noexcept {
+    return data_ == nullptr ? 0 : (capacity_ + column_padding) * sizeof(T);
+  }
   T* data() noexcept { return data_; }
   const T* data() const noexcept { return data_; }
   T* begin() noexcept { return data_; }
@@ -99,13 +102,15 @@ class Column {
     return true;
   }
 
- private:
-  static void release(T* data) noexcept { ::operator delete(data, std::align_val_t{column_alignment}); }
+private:
+  static void release(T* data) noexcept { ::operator delete (data, std::align_val_t{column_alignment}); }
 
   void reallocate(std::size_t capacity) {
-    void* memory = ::operator new((capacity + column_padding) * sizeof(T), std::align_val_t{column_alignment});
+    void* memory =
+        ::operator new ((capacity + column_padding) * sizeof(T), std::align_val_t{column_alignment});
     T* data = static_cast<T*>(memory);
-    if (size_ != 0) std::memcpy(static_cast<void*>(data), data_, (size_ < capacity ? size_ : capacity) * sizeof(T));
+    if (size_ != 0)
+      std::memcpy(static_cast<void*>(data), data_, (size_ < capacity ? size_ : capacity) * sizeof(T));
     std::memset(static_cast<void*>(data + capacity), 0, column_padding * sizeof(T));
     release(data_);
     data_ = data;
@@ -117,4 +122,4 @@ class Column {
   std::size_t capacity_ = 0;
 };
 
-}  // namespace fastrt
+} // namespace fastrt

@@ -8,9 +8,10 @@
 
 namespace fastrt {
 
-// Collects warnings for whoever wants to show them. The first ten of a kind are kept word for word, the rest counted.
+// Collects warnings for whoever wants to show them. The first ten of a kind are kept word for word, the rest
+// counted.
 class Diagnostics {
- public:
+public:
   static constexpr std::size_t kept_per_kind = 10;
 
   // kind: a short fixed text ("degenerate face"); message: the whole line without "warning:".
@@ -19,10 +20,10 @@ class Diagnostics {
   std::vector<std::string> lines() const;
   std::size_t count() const noexcept { return count_; }
 
- private:
+private:
   std::map<std::string, std::size_t> per_kind_;
   std::vector<std::string> kept_;
   std::size_t count_ = 0;
 };
 
-}  // namespace fastrt
+} // namespace fastrt

@@ -7,8 +7,8 @@
 
 namespace fastrt {
 
-// The instruction sets that kernels are compiled for. `scalar` is the naive twin's arithmetic over a binary tree, one
-// ray at a time: slow, there to check and to compare with.
+// The instruction sets that kernels are compiled for. `scalar` is the naive twin's arithmetic over a binary
+// tree, one ray at a time: slow, there to check and to compare with.
 enum class Isa { scalar, sse42, avx2, avx512 };
 
 // "scalar", "sse4.2", "avx2", "avx512".
@@ -23,8 +23,8 @@ bool isa_available(Isa isa) noexcept;
 // Every ISA that runs here, the widest first.
 std::vector<Isa> available_isas();
 
-// The ISA that `name` asks for; "auto" and "" give the widest one. Throws UsageError for an unknown name and for an
-// ISA that this CPU lacks; the message lists what is available.
+// The ISA that `name` asks for; "auto" and "" give the widest one. Throws UsageError for an unknown name and
+// for an ISA that this CPU lacks; the message lists what is available.
 Isa select_isa(std::string_view name);
 
-}  // namespace fastrt
+} // namespace fastrt

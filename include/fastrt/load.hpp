@@ -10,15 +10,15 @@
 namespace fastrt {
 
 struct LoadOptions {
-  int threads = 0;                    // 0 takes every core
-  bool strict = false;                // warnings become InputError
-  bool allow_external_files = false;  // material files outside the scene's folder
-  bool tr_is_opacity = false;         // MTL: Tr 1 means opaque
+  int threads = 0;                   // 0 takes every core
+  bool strict = false;               // warnings become InputError
+  bool allow_external_files = false; // material files outside the scene's folder
+  bool tr_is_opacity = false;        // MTL: Tr 1 means opaque
 };
 
 // Reads a Wavefront OBJ file and its MTL files. Lights, ambient and background are left at their defaults.
-// Throws InputError (with file:line:column) for what can't be read and LimitError for what is too large; what can be
-// tolerated goes to `diagnostics`.
+// Throws InputError (with file:line:column) for what can't be read and LimitError for what is too large; what
+// can be tolerated goes to `diagnostics`.
 SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // Reads by the name's extension (.obj). Throws UsageError for one that is not known.
@@ -31,7 +31,8 @@ Aabb bounds_of(const SceneDesc& desc);
 // aspect: width over height. An empty box gives the default camera.
 Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Vec3& up = {0.0F, 1.0F, 0.0F});
 
-// Light for a scene that has none: a key light with shadows, a soft fill from the camera's side without, and ambient.
+// Light for a scene that has none: a key light with shadows, a soft fill from the camera's side without, and
+// ambient.
 void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camera);
 
-}  // namespace fastrt
+} // namespace fastrt

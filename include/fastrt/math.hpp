@@ -12,7 +12,8 @@ using Vec3 = glm::vec3;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// An axis-aligned box in world space. The default is empty: it contains nothing and extending it gives the other box.
+// An axis-aligned box in world space. The default is empty: it contains nothing and extending it gives the
+// other box.
 struct Aabb {
   Vec3 lower{infinity};
   Vec3 upper{-infinity};
@@ -30,4 +31,4 @@ struct Aabb {
   Vec3 extent() const { return upper - lower; }
 };
 
-}  // namespace fastrt
+} // namespace fastrt

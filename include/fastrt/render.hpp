@@ -11,20 +11,21 @@
 
 namespace fastrt {
 
-// How the samples of a pixel are spread and weighed: over the pixel's own square, or as a tent two pixels wide.
+// How the samples of a pixel are spread and weighed: over the pixel's own square, or as a tent two pixels
+// wide.
 enum class PixelFilter { box, tent };
 
 struct RenderSettings {
-  int width = 1024;   // 1..65536
-  int height = 768;   // 1..65536
-  int samples_per_pixel = 1;  // 1 is the pixel's centre
-  PixelFilter filter = PixelFilter::tent;  // of 2 samples and more
+  int width = 1024;                       // 1..65536
+  int height = 768;                       // 1..65536
+  int samples_per_pixel = 1;              // 1 is the pixel's centre
+  PixelFilter filter = PixelFilter::tent; // of 2 samples and more
   std::uint32_t seed = 0;
-  int max_depth = 8;              // bounces after the camera ray; 0 traces none
-  float min_contribution = 1.0F / 256;  // a ray whose largest weight is below this is not traced
-  int threads = 0;                // 0 takes every core
-  // Both may be null. `cancelled` is read between tiles; `progress` gets the share of tiles done, 0..1, from one
-  // thread at a time.
+  int max_depth = 8;                   // bounces after the camera ray; 0 traces none
+  float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced
+  int threads = 0;                     // 0 takes every core
+  // Both may be null. `cancelled` is read between tiles; `progress` gets the share of tiles done, 0..1, from
+  // one thread at a time.
   const std::atomic<bool>* cancelled = nullptr;
   std::function<void(double)> progress;
 };
@@ -34,29 +35,30 @@ struct RayCounts {
   std::uint64_t total() const noexcept { return primary + shadow + reflected + refracted; }
 };
 
-// A finished picture: linear RGB, three floats a pixel, rows from the top; and the primitive that the first sample of
-// each pixel sees (no_primitive where it sees the background).
+// A finished picture: linear RGB, three floats a pixel, rows from the top; and the primitive that the first
+// sample of each pixel sees (no_primitive where it sees the background).
 struct Frame {
   int width = 0, height = 0;
   std::vector<float> rgb;
   std::vector<std::int32_t> primitive;
   RayCounts rays;
-  bool complete = true;  // false when the rendering was cancelled: tiles not done are black
+  bool complete = true; // false when the rendering was cancelled: tiles not done are black
 };
 
-// Renders with the tracer's kernels. The picture depends on the scene, the camera and the settings alone: not on the
-// ISA and not on the number of threads.
+// Renders with the tracer's kernels. The picture depends on the scene, the camera and the settings alone: not
+// on the ISA and not on the number of threads.
 Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings);
 
-// The same picture by the naive scalar path: every primitive tested for every ray, no tree, no SIMD. For checking.
+// The same picture by the naive scalar path: every primitive tested for every ray, no tree, no SIMD. For
+// checking.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
 // What differs between two frames of one size.
 struct FrameDifference {
-  std::size_t pixels = 0;      // pixels with a channel that differs in its bits
-  std::size_t primitives = 0;  // pixels that see another primitive
-  double largest = 0;          // the largest difference of a channel
+  std::size_t pixels = 0;     // pixels with a channel that differs in its bits
+  std::size_t primitives = 0; // pixels that see another primitive
+  double largest = 0;         // the largest difference of a channel
 };
 FrameDifference compare(const Frame& a, const Frame& b);
 
-}  // namespace fastrt
+} // namespace fastrt

@@ -29,8 +29,9 @@ struct Columns3 {
   Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-// Triangles, one row each. v0..v2 index SceneDesc::positions, n0..n2 normals, t0..t2 uvs. The n columns are either
-// empty (no triangle has normals) or as long as v0; likewise the t columns. A corner without one holds no_index.
+// Triangles, one row each. v0..v2 index SceneDesc::positions, n0..n2 normals, t0..t2 uvs. The n columns are
+// either empty (no triangle has normals) or as long as v0; likewise the t columns. A corner without one holds
+// no_index.
 struct TriangleColumns {
   Column<std::uint32_t> v0, v1, v2;
   Column<std::uint32_t> n0, n1, n2;
@@ -40,7 +41,7 @@ struct TriangleColumns {
 };
 
 struct SphereColumns {
-  Column<float> x, y, z, radius;  // radius > 0
+  Column<float> x, y, z, radius; // radius > 0
   Column<std::uint32_t> material, object;
   std::size_t size() const noexcept { return x.size(); }
 };
@@ -51,21 +52,22 @@ struct SceneDesc {
   Columns2 uvs;
   TriangleColumns triangles;
   SphereColumns spheres;
-  std::vector<Material> materials;        // triangles.material and spheres.material index these
-  std::vector<std::string> object_names;  // triangles.object and spheres.object index these
+  std::vector<Material> materials;       // triangles.material and spheres.material index these
+  std::vector<std::string> object_names; // triangles.object and spheres.object index these
   std::vector<Light> lights;
-  Vec3 ambient{0.0F};     // Ia
-  Vec3 background{0.0F};  // what a ray that hits nothing sees
+  Vec3 ambient{0.0F};    // Ia
+  Vec3 background{0.0F}; // what a ray that hits nothing sees
 };
 
 // The kinds of primitive, in the order in which they share the primitive ids.
 enum class PrimitiveKind : std::uint32_t { triangle, sphere };
 
-// An immutable scene. Primitive ids run from 0: first all triangles, then all spheres, each in the order given.
+// An immutable scene. Primitive ids run from 0: first all triangles, then all spheres, each in the order
+// given.
 class Scene {
- public:
-  // Checks every index, number, material and light; throws InputError at the first that can't be used and LimitError
-  // for more than 2^31 - 1 primitives.
+public:
+  // Checks every index, number, material and light; throws InputError at the first that can't be used and
+  // LimitError for more than 2^31 - 1 primitives.
   explicit Scene(SceneDesc desc);
 
   const SceneDesc& desc() const noexcept { return desc_; }
@@ -92,7 +94,7 @@ class Scene {
   // Bytes held by the columns.
   std::size_t bytes() const noexcept;
 
- private:
+private:
   SceneDesc desc_;
   Aabb bounds_;
   bool has_transmission_ = false;
@@ -100,11 +102,11 @@ class Scene {
 
 // Makes a scene in a program, without a file. Ids are counted from 0 in the order of the calls.
 class SceneBuilder {
- public:
+public:
   std::uint32_t add_material(Material material);
-  // A mesh of its own object. positions: one per vertex; indices: three per triangle, into positions; normals: empty
-  // or one per vertex. Returns the object id. Throws InputError for an index out of range or a count that is no
-  // multiple of three.
+  // A mesh of its own object. positions: one per vertex; indices: three per triangle, into positions;
+  // normals: empty or one per vertex. Returns the object id. Throws InputError for an index out of range or a
+  // count that is no multiple of three.
   std::uint32_t add_mesh(std::span<const Vec3> positions, std::span<const std::uint32_t> indices,
                          std::uint32_t material, std::span<const Vec3> normals = {}, std::string name = {});
   std::uint32_t add_sphere(const Vec3& center, float radius, std::uint32_t material, std::string name = {});
@@ -114,8 +116,8 @@ class SceneBuilder {
   // Leaves the builder empty. Throws as Scene's constructor does.
   Scene build();
 
- private:
+private:
   SceneDesc desc_;
 };
 
-}  // namespace fastrt
+} // namespace fastrt

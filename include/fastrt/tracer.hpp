@@ -14,14 +14,14 @@ inline constexpr std::int32_t no_primitive = -1;
 
 // What the caller knows about rays that are handed over together. It never changes an answer, only the time.
 enum class Coherence {
-  unknown,      // any rays
-  coherent,     // neighbours in the arrays are similar: same region, similar direction
-  tile,         // coherent, and each run of 256 rays has one common origin
+  unknown,  // any rays
+  coherent, // neighbours in the arrays are similar: same region, similar direction
+  tile,     // coherent, and each run of 256 rays has one common origin
 };
 
-// Rays as structure of arrays, `count` of each. Directions need not be normalised; t is measured in their length.
-// A hit counts when t_min < t < t_max. t_min and t_max may be null: 0 and infinity. A ray with a number that is not
-// finite (t_max excepted) hits nothing or anything, but does no harm.
+// Rays as structure of arrays, `count` of each. Directions need not be normalised; t is measured in their
+// length. A hit counts when t_min < t < t_max. t_min and t_max may be null: 0 and infinity. A ray with a
+// number that is not finite (t_max excepted) hits nothing or anything, but does no harm.
 struct RayArrays {
   const float *origin_x, *origin_y, *origin_z;
   const float *dir_x, *dir_y, *dir_z;
@@ -41,7 +41,7 @@ struct HitArrays {
 };
 
 struct BvhStats {
-  double sah_cost = 0;  // expected node visits + block tests of a random ray that meets the root box
+  double sah_cost = 0; // expected node visits + block tests of a random ray that meets the root box
   std::size_t node_count = 0;
   std::size_t leaf_count = 0;
   std::size_t block_count = 0;
@@ -52,14 +52,15 @@ struct BvhStats {
 };
 
 struct TracerSettings {
-  Isa isa;          // which kernels
-  int threads = 0;  // for the build; 0 takes every core
+  Isa isa;         // which kernels
+  int threads = 0; // for the build; 0 takes every core
   TracerSettings() : isa(select_isa("auto")) {}
 };
 
-// A scene with its bounding volume hierarchy, ready to be asked. Const calls may come from several threads at once.
+// A scene with its bounding volume hierarchy, ready to be asked. Const calls may come from several threads at
+// once.
 class Tracer {
- public:
+public:
   explicit Tracer(Scene scene, const TracerSettings& settings = {});
   ~Tracer();
   Tracer(Tracer&&) noexcept;
@@ -70,15 +71,16 @@ class Tracer {
   const BvhStats& bvh_stats() const noexcept;
 
   // The hit with the smallest t per ray; at equal t the smallest primitive id.
-  void closest_hit(const RayArrays& rays, const HitArrays& hits, Coherence coherence = Coherence::unknown) const;
+  void closest_hit(const RayArrays& rays, const HitArrays& hits,
+                   Coherence coherence = Coherence::unknown) const;
   // hit[i] = 1 if anything lies in (t_min, t_max) of ray i, else 0.
   void any_hit(const RayArrays& rays, std::uint8_t* hit, Coherence coherence = Coherence::unknown) const;
 
-  struct Parts;  // of the library alone
+  struct Parts; // of the library alone
   const Parts& parts() const noexcept { return *parts_; }
 
- private:
+private:
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace fastrt
+} // namespace fastrt

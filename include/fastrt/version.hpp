@@ -6,4 +6,4 @@ namespace fastrt {
 // "0.1.0"
 const char* version() noexcept;
 
-}  // namespace fastrt
+} // namespace fastrt

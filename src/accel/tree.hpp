@@ -35,11 +35,11 @@ static_assert(sizeof(BinaryNode) == 32);
 struct BinaryTree {
   Column<BinaryNode> nodes;
   Column<std::uint32_t> order;        // primitive ids, grouped by leaf
-  Column<std::uint8_t> group_of_leaf;  // per node: the leaf's group; 0 for inner nodes
+  Column<std::uint8_t> group_of_leaf; // per node: the leaf's group; 0 for inner nodes
 };
 
 struct BuildSettings {
-  int threads = 0;  // 0 takes every core. The tree is the same for any number.
+  int threads = 0; // 0 takes every core. The tree is the same for any number.
 };
 
 // A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts blocks of `block_size`
@@ -47,12 +47,13 @@ struct BuildSettings {
 // max_tree_depth levels. Reorders `boxes`. Boxes must be finite.
 BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings);
 
-// The wide tree: nodes in depth-first order, and for each group the primitive ids of its blocks, block_size a block,
-// -1 where a block is not full. The root is a child like any other: a node or, for few primitives, a leaf.
+// The wide tree: nodes in depth-first order, and for each group the primitive ids of its blocks, block_size a
+// block, -1 where a block is not full. The root is a child like any other: a node or, for few primitives, a
+// leaf.
 struct WideTree {
   Column<WideNode> nodes;
   std::array<Column<std::int32_t>, max_groups> slots;
-  std::uint32_t root = no_child;  // no_child: the tree is empty
+  std::uint32_t root = no_child; // no_child: the tree is empty
   Aabb bounds;
 };
 
@@ -66,4 +67,4 @@ double sah_cost(const WideTree& tree);
 int tree_depth(const WideTree& tree);
 std::size_t leaf_count(const WideTree& tree);
 
-}  // namespace fastrt
+} // namespace fastrt

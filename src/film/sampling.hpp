@@ -30,14 +30,16 @@ namespace fastrt {
 }
 
 struct SampleOffset {
-  float x, y;  // from the pixel's centre, in pixels
+  float x, y; // from the pixel's centre, in pixels
 };
 
-// Sample `index` of `count` >= 2 of pixel (x, y): a Hammersley set, shifted per pixel (Cranley & Patterson 1976), so
-// every row and column of a count-fold grid holds one sample. tent: spread as a tent filter two pixels wide, each
-// sample with equal weight (filter importance sampling, Ernst et al. 2006); otherwise over the pixel's square.
-[[gnu::always_inline]] static inline SampleOffset sample_offset(std::uint32_t x, std::uint32_t y, std::uint32_t index,
-                                                                std::uint32_t count, std::uint32_t seed, bool tent) {
+// Sample `index` of `count` >= 2 of pixel (x, y): a Hammersley set, shifted per pixel (Cranley & Patterson
+// 1976), so every row and column of a count-fold grid holds one sample. tent: spread as a tent filter two
+// pixels wide, each sample with equal weight (filter importance sampling, Ernst et al. 2006); otherwise over
+// the pixel's square.
+[[gnu::always_inline]] static inline SampleOffset sample_offset(std::uint32_t x, std::uint32_t y,
+                                                                std::uint32_t index, std::uint32_t count,
+                                                                std::uint32_t seed, bool tent) {
   const std::uint32_t pixel = hash32(x + hash32(y + hash32(seed)));
   const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
   const std::uint32_t u_bits = stratum + pixel;
@@ -48,4 +50,4 @@ struct SampleOffset {
   return {u - 0.5F, v - 0.5F};
 }
 
-}  // namespace fastrt
+} // namespace fastrt

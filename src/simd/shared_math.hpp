@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pow and exp, written once for a float and for a batch of floats: the only arithmetic that the SIMD path and its
-// scalar twin share, because library functions differ between instruction sets and versions. Only + - * / compare,
-// select and bit operations, so both run the same steps. Relative error below 3e-6 * max(1, |exponent of the result|).
+// pow and exp, written once for a float and for a batch of floats: the only arithmetic that the SIMD path and
+// its scalar twin share, because library functions differ between instruction sets and versions. Only + - * /
+// compare, select and bit operations, so both run the same steps. Relative error below 3e-6 * max(1,
+// |exponent of the result|).
 //
-// Ops names the types and what C++ has no common spelling for: F (floats), I (32-bit integers), and the static
-// functions bits(F), from_bits(I), to_float(I), to_int(F) (truncates) and select(mask, F, F).
+// Ops names the types and what C++ has no common spelling for: F (floats), I (32-bit integers), and the
+// static functions bits(F), from_bits(I), to_float(I), to_int(F) (truncates) and select(mask, F, F).
 #pragma once
 
 #include <cstdint>
@@ -93,4 +94,4 @@ struct ScalarOps {
   [[gnu::always_inline]] static F select(bool mask, F yes, F no) { return mask ? yes : no; }
 };
 
-}  // namespace fastrt::FASTRT_ISA_NAMESPACE
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
