@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/reference/ray.hpp"
+
+#include <fastrt/scene.hpp>
+
+namespace fastrt::reference {
+
+// Answers "what does this ray hit first?", so that the same shading runs over a plain loop and over a tree.
+// Const calls may come from several threads at once.
+class HitFinder {
+public:
+  HitFinder() = default;
+  HitFinder(const HitFinder&) = delete;
+  HitFinder& operator=(const HitFinder&) = delete;
+  virtual ~HitFinder() = default;
+
+  // The hit with the smallest t; at equal t the smallest primitive id.
+  virtual Hit closest(const Ray& ray) const = 0;
+  // Whether there is any hit at all.
+  virtual bool any(const Ray& ray) const { return closest(ray).found(); }
+};
+
+// The lecture's findFirstHit: a loop over all objects in the scene. The scene must outlive it.
+class BruteForce final : public HitFinder {
+public:
+  explicit BruteForce(const Scene& scene) : scene_(&scene) {}
+  Hit closest(const Ray& ray) const override;
+  bool any(const Ray& ray) const override;
+
+private:
+  const Scene* scene_;
+};
+
+} // namespace fastrt::reference

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a ray meets one primitive: docs/numerics.md, "Triangle" and "Sphere", operation by operation.
+#pragma once
+
+#include "src/reference/arithmetic.hpp"
+#include "src/reference/ray.hpp"
+
+#include <fastrt/scene.hpp>
+
+namespace fastrt::reference {
+
+struct TriangleVertices {
+  Vec3 a, b, c;
+};
+
+inline TriangleVertices triangle_vertices(const Scene& scene, std::uint32_t triangle) {
+  const TriangleColumns& triangles = scene.triangles();
+  const Columns3& positions = scene.positions();
+  return {positions[triangles.v0[triangle]], positions[triangles.v1[triangle]],
+          positions[triangles.v2[triangle]]};
+}
+
+struct SphereShape {
+  Vec3 center;
+  float radius;
+};
+
+inline SphereShape sphere_shape(const Scene& scene, std::uint32_t sphere) {
+  const SphereColumns& spheres = scene.spheres();
+  return {{spheres.x[sphere], spheres.y[sphere], spheres.z[sphere]}, spheres.radius[sphere]};
+}
+
+// Where a ray meets a primitive alone. t is meaningless when hit is false.
+struct Intersection {
+  bool hit;
+  float t;
+  float u;
+  float v;
+};
+
+// Lecture notes, 11.3.1, in the form with edge normals seen from the origin: an edge that two triangles share
+// gives exactly opposite numbers for them, so no ray slips through between.
+inline Intersection intersect_triangle(const Ray& ray, const TriangleVertices& triangle) {
+  const Vec3& d = ray.direction;
+  const Vec3 a = triangle.a - ray.origin;
+  const Vec3 b = triangle.b - ray.origin;
+  const Vec3 c = triangle.c - ray.origin;
+
+  const Vec3 normal = glm::cross(b - a, c - a);
+  float plane = glm::dot(a, normal);
+  float weight_a = glm::dot(d, glm::cross(b - c, b + c));
+  float weight_b = glm::dot(d, glm::cross(c - a, c + a));
+  float weight_c = glm::dot(d, glm::cross(a - b, a + b));
+  float slope = glm::dot(d, normal);
+  // Seen from the back, everything changes its sign.
+  if (std::signbit(plane)) {
+    plane = -plane;
+    weight_a = -weight_a;
+    weight_b = -weight_b;
+    weight_c = -weight_c;
+    slope = -slope;
+  }
+
+  const float sum = (weight_a + weight_b) + weight_c;
+  const bool inside = min(weight_a, min(weight_b, weight_c)) >= -(0x1p-23F * std::fabs(sum));
+  const float t = plane / slope;
+  const float scale = 1.0F / sum;
+  return {inside && ray.t_min < t && t < ray.t_max, t, weight_b * scale, weight_c * scale};
+}
+
+// Lecture notes, 11.3.3, in the stable form of Haines, Guenther & Akenine-Moeller (Ray Tracing Gems, ch. 7,
+// 2019): the discriminant from the point of the line that is closest to the centre.
+inline Intersection intersect_sphere(const Ray& ray, const SphereShape& sphere) {
+  const Vec3& d = ray.direction;
+  const Vec3 f = ray.origin - sphere.center;
+  const float a = glm::dot(d, d);
+  const float b = -glm::dot(f, d);
+  const Vec3 closest = f + (b / a) * d;
+  const float discriminant = sphere.radius * sphere.radius - glm::dot(closest, closest);
+  if (!(discriminant >= 0.0F)) return {false, ray.t_max, 0, 0};
+
+  const float c = glm::dot(f, f) - sphere.radius * sphere.radius;
+  const float q = b + std::copysign(std::sqrt(a * discriminant), b);
+  const float t0 = c / q;
+  const float t1 = q / a;
+  const float near = min(t0, t1);
+  const float far = max(t0, t1);
+  const float t = near > ray.t_min ? near : far;
+  return {ray.t_min < t && t < ray.t_max, t, 0, 0};
+}
+
+inline Intersection intersect(const Ray& ray, const Scene& scene, std::uint32_t primitive) {
+  if (scene.kind(primitive) == PrimitiveKind::triangle)
+    return intersect_triangle(ray, triangle_vertices(scene, primitive));
+  return intersect_sphere(ray, sphere_shape(scene, primitive - scene.triangle_count()));
+}
+
+// Keeps the closer of two hits; at equal t the one with the smaller id, so that the order in which primitives
+// are met does not matter.
+inline void keep_closest(Hit& best, const Intersection& found, std::uint32_t primitive) {
+  if (!found.hit) return;
+  const auto id = static_cast<std::int32_t>(primitive);
+  if (found.t < best.t || (found.t == best.t && best.found() && id < best.primitive))
+    best = {found.t, found.u, found.v, id};
+}
+
+} // namespace fastrt::reference

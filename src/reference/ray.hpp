@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastrt/math.hpp>
+#include <fastrt/tracer.hpp>
+
+#include <cstdint>
+
+namespace fastrt::reference {
+
+// r(t) = origin + t * direction, t_min < t < t_max. The direction need not be normalised. `excluded` is never
+// hit: the planar primitive that the ray starts from, or that a shadow ray ends on.
+struct Ray {
+  Vec3 origin{0.0F};
+  Vec3 direction{0.0F};
+  float t_min = 0;
+  float t_max = infinity;
+  std::int32_t excluded = no_primitive;
+};
+
+// On a miss: t is the ray's t_max and primitive is no_primitive. (u, v) weigh a triangle's second and third
+// vertex; a sphere's are 0.
+struct Hit {
+  float t = infinity;
+  float u = 0;
+  float v = 0;
+  std::int32_t primitive = no_primitive;
+  bool found() const noexcept { return primitive != no_primitive; }
+};
+
+} // namespace fastrt::reference

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/reference/hit_finder.hpp"
+#include "src/reference/surface.hpp"
+
+#include <fastrt/render.hpp>
+#include <fastrt/scene.hpp>
+
+namespace fastrt::reference {
+
+// exp(x) and x^y, x > 0: the functions that both paths share (src/simd/shared_math.hpp).
+float shared_exp(float x);
+float shared_pow(float x, float y);
+
+// The share of light that passes through a surface of this material; above 0 in some channel: transmissive.
+Vec3 transmittance(const Material& material);
+inline bool is_transmissive(const Vec3& transmittance) {
+  return transmittance.x > 0.0F || transmittance.y > 0.0F || transmittance.z > 0.0F;
+}
+
+// The lecture's phongModel for one light in the unit direction `to_light`: what the surface sends to the
+// viewer, before the light's intensity and its shadow. cos_n: of the angle between to_light and the shading
+// normal.
+Vec3 phong_model(const Material& material, const Surface& surface, const Vec3& to_light, float cos_n);
+
+// The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.
+// Each shadow that is asked for adds one to rays.shadow.
+Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays);
+
+} // namespace fastrt::reference
