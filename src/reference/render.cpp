@@ -1,112 +1,44 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "src/reference/render.hpp"
+// How far the picture is, shared by the threads that make it.
+class Progress {
+public:
+  explicit Progress(const RenderSettings& settings) : settings_(&settings) {}
 
-#include "src/film/sampling.hpp"
-
-#include <fastrt/error.hpp>
-
-#include <omp.h>
-
-#include <exception>
-#include <string>
-
-namespace fastrt {
-namespace reference {
-namespace {
-
-void check(const RenderSettings& settings) {
-  if (settings.width < 1 || settings.width > 65536 || settings.height < 1 || settings.height > 65536)
-    throw UsageError("picture size " + std::to_string(settings.width) + "x" +
-                     std::to_string(settings.height) + " is not within 1..65536");
-  if (settings.samples_per_pixel < 1)
-    throw UsageError("samples per pixel must be at least 1, not " +
-                     std::to_string(settings.samples_per_pixel));
-}
-
-struct Pixel {
-  Vec3 color{0.0F};
-  Hit first_hit; // of its first sample
-};
-
-struct Job {
-  const Scene* scene;
-  const HitFinder* finder;
-  const RenderSettings* settings;
-  CameraFrame camera;
-};
-
-Ray camera_ray(const CameraFrame& camera, float px, float py) {
-  Ray ray;
-  ray.origin = camera.eye;
-  ray.direction = (camera.corner + px * camera.du) + py * camera.dv;
-  return ray;
-}
-
-Pixel render_pixel(const Job& job, int x, int y, RayCounts& rays) {
-  const RenderSettings& settings = *job.settings;
-  const int count = settings.samples_per_pixel;
-  const float center_x = static_cast<float>(x) + 0.5F;
-  const float center_y = static_cast<float>(y) + 0.5F;
-  Pixel pixel;
-  for (int sample = 0; sample < count; ++sample) {
-    float px = center_x;
-    float py = center_y;
-    if (count > 1) {
-      const SampleOffset offset = sample_offset(
-          static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(sample),
-          static_cast<std::uint32_t>(count), settings.seed, settings.filter == PixelFilter::tent);
-      px = center_x + offset.x;
-      py = center_y + offset.y;
-    }
-    ++rays.primary;
-    Hit hit;
-    const Vec3 color =
-        ray_trace(*job.scene, *job.finder, camera_ray(job.camera, px, py), settings, rays, hit);
-    pixel.color = count == 1 ? color : pixel.color + color;
-    if (sample == 0) pixel.first_hit = hit;
+  bool stopped() {
+    const std::lock_guard lock(mutex_);
+    if (settings_->cancelled != nullptr && settings_->cancelled->load()) stopped_ = true;
+    return stopped_;
   }
-  if (count > 1) pixel.color = pixel.color * (1.0F / static_cast<float>(count));
-  return pixel;
-}
 
-RayCounts render_row(const Job& job, int y, Frame& frame) {
-  RayCounts rays;
-  for (int x = 0; x < frame.width; ++x) {
-    const Pixel pixel = render_pixel(job, x, y, rays);
-    const std::size_t i =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
-    frame.rgb[3 * i] = pixel.color.x;
-    frame.rgb[3 * i + 1] = pixel.color.y;
-    frame.rgb[3 * i + 2] = pixel.color.z;
-    frame.primitive[i] = pixel.first_hit.primitive;
+  void row_done(const RayCounts& rays) {
+    const std::lock_guard lock(mutex_);
+    rays_.primary += rays.primary;
+    rays_.shadow += rays.shadow;
+    rays_.reflected += rays.reflected;
+    rays_.refracted += rays.refracted;
+    ++rows_done_;
+    if (settings_->progress) settings_->progress(static_cast<double>(rows_done_) / settings_->height);
   }
-  return rays;
-}
 
-Frame black_frame(int width, int height) {
-  Frame frame;
-  frame.width = width;
-  frame.height = height;
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  frame.rgb.assign(3 * pixels, 0.0F);
-  frame.primitive.assign(pixels, no_primitive);
-  return frame;
-}
-
-// Rows already finished, shared by the threads; all of it is touched under one lock.
-struct Progress {
-  int rows_done = 0;
-  std::exception_ptr error;
-  bool stopped = false; // read at the start of every row
-
-  void row_done(Frame& frame, const RayCounts& rays, const RenderSettings& settings) {
-    frame.rays.primary += rays.primary;
-    frame.rays.shadow += rays.shadow;
-    frame.rays.reflected += rays.reflected;
-    frame.rays.refracted += rays.refracted;
-    ++rows_done;
-    if (settings.progress) settings.progress(static_cast<double>(rows_done) / settings.height);
+  // Exceptions must not leave a parallel region; the first one leaves through finish().
+  void failed(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    if (!error_) error_ = std::move(error);
   }
+
+  void finish(Frame& frame) {
+    if (error_) std::rethrow_exception(error_);
+    frame.rays = rays_;
+    frame.complete = rows_done_ == settings_->height;
+  }
+
+private:
+  const RenderSettings* settings_;
+  std::mutex mutex_;
+  RayCounts rays_;
+  int rows_done_ = 0;
+  bool stopped_ = false;
+  std::exception_ptr error_;
 };
 
 } // namespace
@@ -116,28 +48,17 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
   check(settings);
   const Job job{&scene, &finder, &settings, make_camera_frame(camera, settings.width, settings.height)};
   Frame frame = black_frame(settings.width, settings.height);
-  Progress progress;
+  Progress progress(settings);
   const int threads = settings.threads > 0 ? settings.threads : omp_get_max_threads();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (int y = 0; y < settings.height; ++y) {
-    bool stop = settings.cancelled != nullptr && settings.cancelled->load();
-#pragma omp critical(fastrt_reference_progress)
-    stop = progress.stopped = progress.stopped || stop;
-    if (stop) continue;
     try {
-      const RayCounts rays = render_row(job, y, frame);
-#pragma omp critical(fastrt_reference_progress)
-      progress.row_done(frame, rays, settings);
+      if (!progress.stopped()) progress.row_done(render_row(job, y, frame));
     } catch (...) {
-#pragma omp critical(fastrt_reference_progress)
-      {
-        progress.stopped = true;
-        if (!progress.error) progress.error = std::current_exception();
-      }
+      progress.failed(std::current_exception());
     }
   }
-  if (progress.error) std::rethrow_exception(progress.error);
-  frame.complete = progress.rows_done == settings.height;
+  progress.finish(frame);
   return frame;
 }
 

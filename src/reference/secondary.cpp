@@ -85,12 +85,14 @@ Secondary secondary_rays(const Scene& scene, const Surface& surface, const Media
   Secondary result;
   result.mirror = mirror_direction(surface, normal, cos_i);
   result.mirror_weight = material.mirror;
-  result.transmitted_weight = transmittance(material);
   result.transmitted_media = media;
   result.transmitted = surface.incident;
+  const Vec3 through = transmittance(material);
+  const bool transmissive = is_transmissive(through);
+  if (transmissive) result.transmitted_weight = through;
 
   // Light that goes straight through, or nowhere, still meets the material's index for its Fresnel share.
-  const bool bends = is_transmissive(result.transmitted_weight) && !material.thin;
+  const bool bends = transmissive && !material.thin;
   if (bends) result.transmitted_media = media.crossed(surface.material);
   const Snell snell =
       bends ? Snell(ior_of(materials, media), ior_of(materials, result.transmitted_media), cos_i)
