@@ -2,10 +2,9 @@
 #include "src/reference/render.hpp"
 
 #include "src/film/sampling.hpp"
+#include "src/scene/threads.hpp"
 
 #include <fastrt/error.hpp>
-
-#include <omp.h>
 
 #include <exception>
 #include <mutex>
@@ -146,8 +145,7 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
   const Job job{&scene, &finder, &settings, make_camera_frame(camera, settings.width, settings.height)};
   Frame frame = black_frame(settings.width, settings.height);
   Progress progress(settings);
-  const int threads = settings.threads > 0 ? settings.threads : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count(settings.threads))
   for (int y = 0; y < settings.height; ++y) {
     try {
       if (!progress.stopped()) progress.row_done(render_row(job, y, frame));
