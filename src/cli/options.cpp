@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only file that includes CLI11, which is slow to compile.
+#include "src/cli/options.hpp"
+
+#include "src/cli/parse.hpp"
+
+#include <fastrt/error.hpp>
+#include <fastrt/isa.hpp>
+#include <fastrt/version.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <limits>
+#include <utility>
+
+namespace fastrt::cli {
+namespace {
+
+constexpr int most_samples = 65536;
+constexpr int deepest = 64;
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  fastrt bunny.obj                          render bunny.png, 1024x768, one ray a pixel\n"
+    "  fastrt bunny.obj -s 16 -r 1920x1080 -o big.exr\n"
+    "  fastrt bunny.obj --eye 0,1,4 --look-at 0,0,0 --light point:3,5,2:1,0.9,0.8\n"
+    "  fastrt bunny.obj -o none --verify         compare the fast kernels with plain scalar code\n"
+    "  fastrt bunny.obj -o none --stats=json     measure\n"
+    "\n"
+    "Pictures: png ppm jpg tif (8 bits, sRGB) and exr hdr pfm (linear), by the name's extension.\n"
+    "Exit codes: 0 done, 1 --verify found a difference, 2 usage, 3 bad scene or camera, 4 output,\n"
+    "5 out of memory or over a limit, 128+n ended by signal n.";
+
+std::string version_text() {
+  std::string text = std::string("fastrt ") + version() + "\ninstruction sets here:";
+  for (const Isa isa : available_isas()) text += std::string(" ") + isa_name(isa);
+  return text + "\n";
+}
+
+StatsFormat stats_format(const std::string& text) {
+  if (text.empty()) return StatsFormat::none;
+  if (text == "text") return StatsFormat::text;
+  if (text == "json") return StatsFormat::json;
+  throw UsageError("--stats: '" + text + "' is not text or json");
+}
+
+// Adds options whose values are read by the functions of parse.hpp; the last of several wins.
+class OptionAdder {
+public:
+  explicit OptionAdder(CLI::App& app) : app_(app) {}
+
+  void group(std::string name) { group_ = std::move(name); }
+
+  template <class Read>
+  void value(const std::string& names, const char* placeholder, const char* help, Read read) {
+    const std::string long_name = names.substr(names.find("--"));
+    const auto call = [long_name, read](const std::string& text) { read(long_name, text); };
+    app_.add_option_function<std::string>(names, call, help)
+        ->option_text(placeholder)
+        ->take_last()
+        ->group(group_);
+  }
+
+  void flag(const std::string& names, bool& target, bool meaning, const char* help) {
+    app_.add_flag_callback(
+            names, [&target, meaning] { target = meaning; }, help)
+        ->group(group_);
+  }
+
+private:
+  CLI::App& app_;
+  std::string group_;
+};
+
+void add_image_options(OptionAdder& add, Options& options) {
+  add.group("Image");
+  add.value("-o,--output", "FILE", "Where the picture goes [SCENE.png in this folder]; 'none': nowhere",
+            [&](const std::string& name, const std::string& text) {
+              if (text.empty()) throw UsageError(name + ": a file name is missing");
+              options.output = text;
+            });
+  add.value("-r,--resolution", "WxH", "Size in pixels [1024x768]",
+            [&](const std::string& name, const std::string& text) {
+              const Resolution size = parse_resolution(name, text);
+              options.width = size.width;
+              options.height = size.height;
+            });
+  add.value("--max-image-mb", "N", "Refuse pictures that take more memory than this [1024]",
+            [&](const std::string& name, const std::string& text) {
+              options.max_image_mb = parse_integer(name, text, 1, std::int64_t{1} << 30);
+            });
+}
+
+void add_sampling_options(OptionAdder& add, Options& options) {
+  add.group("Sampling");
+  add.value("-s,--spp", "N", "Samples per pixel [1: the pixel's centre]",
+            [&](const std::string& name, const std::string& text) {
+              options.samples_per_pixel = static_cast<int>(parse_integer(name, text, 1, most_samples));
+            });
+  add.value("--filter", "box|tent", "How samples make a pixel [tent]",
+            [&](const std::string& name, const std::string& text) {
+              if (text != "box" && text != "tent") {
+                throw UsageError(name + ": '" + text + "' is not box or tent");
+              }
+              options.filter = text == "box" ? PixelFilter::box : PixelFilter::tent;
+            });
+  add.value("--seed", "N", "Another set of samples [0]",
+            [&](const std::string& name, const std::string& text) {
+              options.seed = static_cast<std::uint32_t>(
+                  parse_integer(name, text, 0, std::numeric_limits<std::uint32_t>::max()));
+            });
+  add.value("--max-depth", "N", "Bounces after the camera ray, at most 64 [8]",
+            [&](const std::string& name, const std::string& text) {
+              const auto depth = parse_integer(name, text, 0, std::numeric_limits<int>::max());
+              if (depth > deepest) options.warnings.push_back(name + ": 64 bounces are the most, 64 taken");
+              options.max_depth = static_cast<int>(depth > deepest ? deepest : depth);
+            });
+  add.value("--min-contribution", "X", "Drop rays that weigh less, 0 to 1 [0.00390625]",
+            [&](const std::string& name, const std::string& text) {
+              options.min_contribution = parse_number(name, text);
+              if (options.min_contribution < 0 || options.min_contribution > 1) {
+                throw UsageError(name + ": '" + text + "' is not a number from 0 to 1");
+              }
+            });
+}
+
+void add_view_options(OptionAdder& add, Options& options) {
+  add.group("Camera (what is not given is chosen to show the whole scene)");
+  add.value("--eye", "X,Y,Z", "Where the camera is", [&](const std::string& name, const std::string& text) {
+    options.eye = parse_vector(name, text);
+  });
+  add.value("--look-at", "X,Y,Z", "What it looks at", [&](const std::string& name, const std::string& text) {
+    options.look_at = parse_vector(name, text);
+  });
+  add.value("--up", "X,Y,Z", "Which way is up [0,1,0]",
+            [&](const std::string& name, const std::string& text) { options.up = parse_vector(name, text); });
+  add.value("--fov", "DEG", "Vertical field of view in degrees [40]",
+            [&](const std::string& name, const std::string& text) {
+              options.fov_degrees = parse_number(name, text);
+              if (options.fov_degrees <= 0 || options.fov_degrees >= 180) {
+                throw UsageError(name + ": '" + text + "' is not an angle between 0 and 180");
+              }
+            });
+}
+
+void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
+  add.group("Light (without --light: a key light and a fill light)");
+  app.add_option_function<std::vector<std::string>>(
+         "--light",
+         [&options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) options.lights.push_back(parse_light("--light", text));
+         },
+         "point:X,Y,Z[:R,G,B] or dir:X,Y,Z[:R,G,B]; may be repeated")
+      ->option_text("LIGHT")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Light (without --light: a key light and a fill light)");
+  add.value(
+      "--ambient", "R,G,B", "Light that is everywhere",
+      [&](const std::string& name, const std::string& text) { options.ambient = parse_color(name, text); });
+  add.value("--background", "R,G,B", "What is seen where nothing is",
+            [&](const std::string& name, const std::string& text) {
+              options.background = parse_color(name, text);
+            });
+}
+
+void add_engine_options(OptionAdder& add, Options& options) {
+  add.group("Engine");
+  add.value("-t,--threads", "N", "Threads [all cores, or OMP_NUM_THREADS]",
+            [&](const std::string& name, const std::string& text) {
+              options.threads =
+                  static_cast<int>(parse_integer(name, text, 1, std::numeric_limits<int>::max()));
+            });
+  add.value("--isa", "NAME", "auto, avx512, avx2, sse4.2 or scalar [FASTRT_ISA, or auto: the widest]",
+            [&](const std::string&, const std::string& text) { options.isa = text; });
+  add.flag("--verify", options.verify, true,
+           "Render by plain scalar code too and compare; exit 1 if different");
+}
+
+void add_input_options(OptionAdder& add, Options& options) {
+  add.group("Input");
+  add.flag("--strict", options.strict, true, "Take warnings about the scene for errors");
+  add.flag("--allow-external-files", options.allow_external_files, true,
+           "Read material files from outside the scene's folder");
+  add.flag("--tr-is-opacity", options.tr_is_opacity, true, "In MTL files, Tr 1 means opaque");
+}
+
+void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::string& stats) {
+  add.group("Report");
+  add.flag("-q,--quiet", options.quiet, true, "Print errors only");
+  // A flag with a value: only what follows it after '=' is its.
+  app.add_flag("--stats{text}", stats, "Times, rays and tree: text to stderr or json to stdout [text]")
+      ->option_text("[=text|json]")
+      ->group("Report");
+  add.flag("--no-progress", options.show_progress, false, "No progress bar");
+}
+
+} // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  CLI::App app("Ray traces a 3D model (Wavefront OBJ) and writes the picture.", "fastrt");
+  app.get_formatter()->column_width(34);
+  app.get_formatter()->label("OPTIONS", "options");
+  app.get_formatter()->label("Positionals", "Scene");
+  app.footer(examples);
+  app.add_option("scene", options.scene, "The scene: an .obj file; after '--' its name may begin with '-'")
+      ->option_text("FILE")
+      ->required();
+  app.set_help_flag("-h,--help", "This text")->group("Report");
+  app.set_version_flag("--version", version_text, "Version and instruction sets")->group("Report");
+  OptionAdder add(app);
+  add_image_options(add, options);
+  add_sampling_options(add, options);
+  add_view_options(add, options);
+  add_light_options(app, add, options);
+  add_engine_options(add, options);
+  add_input_options(add, options);
+  std::string stats;
+  add_report_options(app, add, options, stats);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    options.answer = app.help();
+  } catch (const CLI::CallForVersion&) {
+    options.answer = version_text();
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(std::string(error.what()));
+  }
+  options.stats = stats_format(stats);
+  return options;
+}
+
+} // namespace fastrt::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastrt/light.hpp>
+#include <fastrt/math.hpp>
+#include <fastrt/render.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fastrt::cli {
+
+enum class StatsFormat { none, text, json };
+
+// What the command line asks for; what is not given and has no fixed default is empty.
+struct Options {
+  std::string scene;
+  std::string output; // empty: the scene's stem and .png, here; "none": no file
+
+  int width = 1024, height = 768;
+  std::int64_t max_image_mb = 1024;
+  int samples_per_pixel = 1;
+  PixelFilter filter = PixelFilter::tent;
+  std::uint32_t seed = 0;
+  int max_depth = 8;
+  float min_contribution = 1.0F / 256;
+
+  std::optional<Vec3> eye, look_at;
+  Vec3 up{0.0F, 1.0F, 0.0F};
+  float fov_degrees = 40.0F;
+  std::vector<Light> lights;
+  std::optional<Vec3> ambient, background;
+
+  int threads = 0;                // 0: what OpenMP would take
+  std::optional<std::string> isa; // empty: FASTRT_ISA, or the widest
+  bool verify = false;
+  bool strict = false;
+  bool allow_external_files = false;
+  bool tr_is_opacity = false;
+
+  bool quiet = false;
+  bool show_progress = true;
+  StatsFormat stats = StatsFormat::none;
+
+  // The text of --help or --version: it is to be printed, and nothing else done.
+  std::optional<std::string> answer;
+  // What was asked for beyond what is served, and served as far as it goes.
+  std::vector<std::string> warnings;
+};
+
+// Reads the command line. Throws UsageError for what it can't make sense of.
+Options parse_options(int argc, const char* const* argv);
+
+} // namespace fastrt::cli

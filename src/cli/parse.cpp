@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/cli/parse.hpp"
+
+#include <fastrt/error.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <system_error>
+
+namespace fastrt::cli {
+namespace {
+
+constexpr int largest_side = 65536;
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, const std::string& expected) {
+  throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not " + expected);
+}
+
+// Reads all of text as a finite number; false if it is something else.
+bool read_number(std::string_view text, float& value) {
+  // from_chars knows no leading plus.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && std::isfinite(value);
+}
+
+// Reads text as exactly three numbers between commas.
+bool read_vector(std::string_view text, Vec3& value) {
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (i == 2)) return false;
+    if (!read_number(text.substr(0, comma), value[i])) return false;
+    text = i == 2 ? std::string_view() : text.substr(comma + 1);
+  }
+  return true;
+}
+
+bool read_color(std::string_view text, Vec3& value) {
+  return read_vector(text, value) && value.x >= 0 && value.y >= 0 && value.z >= 0;
+}
+
+} // namespace
+
+std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t lowest,
+                           std::int64_t highest) {
+  std::int64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || value < lowest || value > highest) {
+    refuse(option, text, "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
+  }
+  return value;
+}
+
+float parse_number(std::string_view option, std::string_view text) {
+  float value = 0;
+  if (!read_number(text, value)) refuse(option, text, "a finite number");
+  return value;
+}
+
+Vec3 parse_vector(std::string_view option, std::string_view text) {
+  Vec3 value{0.0F};
+  if (!read_vector(text, value)) refuse(option, text, "three numbers x,y,z");
+  return value;
+}
+
+Vec3 parse_color(std::string_view option, std::string_view text) {
+  Vec3 value{0.0F};
+  if (!read_color(text, value)) refuse(option, text, "a colour r,g,b of three numbers that are at least 0");
+  return value;
+}
+
+Resolution parse_resolution(std::string_view option, std::string_view text) {
+  const std::size_t cross = text.find_first_of("xX,");
+  if (cross == std::string_view::npos) refuse(option, text, "a resolution such as 640x480");
+  const auto side = [&](std::string_view digits) {
+    return static_cast<int>(parse_integer(option, digits, 1, largest_side));
+  };
+  return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
+}
+
+Light parse_light(std::string_view option, std::string_view text) {
+  const std::string expected = "a light such as point:x,y,z or dir:x,y,z:r,g,b";
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) refuse(option, text, expected);
+  const std::string_view kind = text.substr(0, colon);
+  const std::string_view rest = text.substr(colon + 1);
+  const std::size_t second = rest.find(':');
+
+  Light light;
+  Vec3 place{0.0F};
+  if (!read_vector(rest.substr(0, second), place)) refuse(option, text, expected);
+  if (second != std::string_view::npos && !read_color(rest.substr(second + 1), light.intensity)) {
+    refuse(option, text, expected);
+  }
+  if (kind == "point") {
+    light.kind = LightKind::point;
+    light.position = place;
+  } else if (kind == "dir" && place != Vec3(0.0F)) {
+    light.kind = LightKind::directional;
+    light.direction = place;
+  } else {
+    refuse(option, text, expected);
+  }
+  return light;
+}
+
+} // namespace fastrt::cli

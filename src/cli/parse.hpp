@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The values of options, read from text. Numbers don't depend on the locale. All throw UsageError, whose text
+// begins with the option's name.
+#pragma once
+
+#include <fastrt/light.hpp>
+#include <fastrt/math.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace fastrt::cli {
+
+struct Resolution {
+  int width, height;
+};
+
+// A whole number in [lowest, highest].
+std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t lowest,
+                           std::int64_t highest);
+
+// A finite number.
+float parse_number(std::string_view option, std::string_view text);
+
+// "x,y,z", each finite.
+Vec3 parse_vector(std::string_view option, std::string_view text);
+
+// "r,g,b", each finite and at least 0.
+Vec3 parse_color(std::string_view option, std::string_view text);
+
+// "640x480" or "640,480", each side in 1..65536.
+Resolution parse_resolution(std::string_view option, std::string_view text);
+
+// "point:x,y,z[:r,g,b]" or "dir:x,y,z[:r,g,b]"; dir gives the way that the light travels.
+Light parse_light(std::string_view option, std::string_view text);
+
+} // namespace fastrt::cli

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/cli/run.hpp"
+
+#include "src/cli/progress.hpp"
+#include "src/cli/report.hpp"
+#include "src/cli/signals.hpp"
+#include "src/cli/stats.hpp"
+
+#include <fastrt/fastrt.hpp>
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace fastrt::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void warn(const Options& options, const std::string& message) {
+  if (!options.quiet) print_warning(message);
+}
+
+Isa choose_isa(const Options& options) {
+  if (options.isa) return select_isa(*options.isa);
+  const char* environment = std::getenv("FASTRT_ISA");
+  return select_isa(environment == nullptr ? "auto" : environment);
+}
+
+// More threads than four a core only cost memory, and the run-time library of OpenMP ends the program when it
+// can't have those that it is asked for.
+int choose_threads(const Options& options) {
+  const int most = 4 * omp_get_num_procs();
+  const int wanted = options.threads != 0 ? options.threads : omp_get_max_threads();
+  if (options.threads > most) {
+    warn(options, "--threads: " + std::to_string(wanted) + " are too many for this machine, " +
+                      std::to_string(most) + " taken");
+  }
+  return std::min(wanted, most);
+}
+
+// Colour and primitive id of every pixel, twice if there are two renderings.
+void check_image_size(const Options& options) {
+  const std::uint64_t pixel_bytes = (3 * sizeof(float) + sizeof(std::int32_t)) * (options.verify ? 2 : 1);
+  const std::uint64_t bytes =
+      static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height) * pixel_bytes;
+  if (bytes > static_cast<std::uint64_t>(options.max_image_mb) << 20U) {
+    throw LimitError("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                     " takes " + std::to_string((bytes + (1U << 20U) - 1) >> 20U) +
+                     " MB, more than --max-image-mb " + std::to_string(options.max_image_mb));
+  }
+}
+
+// Where the picture goes, checked before the work is done; empty for nowhere.
+fs::path choose_output(const Options& options) {
+  if (options.output == "none") return {};
+  fs::path path = options.output;
+  if (path.empty()) path = fs::path(options.scene).stem().native() + ".png";
+  std::error_code error;
+  if (fs::equivalent(path, options.scene, error)) {
+    throw UsageError("the output '" + path.string() + "' is the scene itself");
+  }
+  check_image_path(path);
+  return path;
+}
+
+Camera choose_camera(const Options& options, const Aabb& bounds) {
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  Camera camera = frame_scene(bounds, options.fov_degrees, aspect, options.up);
+  if (options.eye) camera.eye = *options.eye;
+  if (options.look_at) camera.look_at = *options.look_at;
+  camera.up = options.up;
+  // Throws for a view that makes no sense, before the long work.
+  make_camera_frame(camera, options.width, options.height);
+  return camera;
+}
+
+void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
+  add_default_lights(desc, bounds, camera);
+  if (!options.lights.empty()) desc.lights = options.lights;
+  if (options.ambient) desc.ambient = *options.ambient;
+  if (options.background) desc.background = *options.background;
+}
+
+RenderSettings render_settings(const Options& options, int threads) {
+  RenderSettings settings;
+  settings.width = options.width;
+  settings.height = options.height;
+  settings.samples_per_pixel = options.samples_per_pixel;
+  settings.filter = options.filter;
+  settings.seed = options.seed;
+  settings.max_depth = options.max_depth;
+  settings.min_contribution = options.min_contribution;
+  settings.threads = threads;
+  settings.cancelled = &cancelled();
+  return settings;
+}
+
+// A rendering that shows how far it is, and remembers it.
+template <class Render>
+Frame watched(const Options& options, const char* label, RenderSettings settings, std::atomic<double>& share,
+              Render render_with) {
+  ProgressBar bar(options.show_progress && !options.quiet, label);
+  settings.progress = [&](double done) {
+    share.store(done, std::memory_order_relaxed);
+    bar.update(done);
+  };
+  return render_with(settings);
+}
+
+int report_interrupted(double share) {
+  const int signal = signal_received();
+  print_error(std::string(signal == SIGINT ? "interrupted" : "terminated") + " at " +
+              std::to_string(static_cast<int>(share * 100)) + " % of the rendering; no picture is written");
+  return 128 + signal;
+}
+
+void report(const Options& options, const RunStats& stats) {
+  if (options.stats == StatsFormat::text) std::fputs(stats_text(stats).c_str(), stderr);
+  if (options.stats == StatsFormat::json) {
+    print_out(stats_json(stats));
+  } else if (!options.quiet) {
+    print_out(verify_text(stats) + summary_line(stats));
+  }
+}
+
+void describe(const Options& options, const Tracer& tracer, const Frame& frame, RunStats& stats) {
+  stats.scene = options.scene;
+  stats.width = frame.width;
+  stats.height = frame.height;
+  stats.samples_per_pixel = options.samples_per_pixel;
+  stats.isa = tracer.isa();
+  stats.triangles = tracer.scene().triangle_count();
+  stats.spheres = tracer.scene().sphere_count();
+  stats.lights = tracer.scene().lights().size();
+  stats.rays = frame.rays;
+  stats.bvh = tracer.bvh_stats();
+  stats.scene_bytes = tracer.scene().bytes();
+}
+
+SceneDesc read_scene(const Options& options, int threads) {
+  LoadOptions load;
+  load.threads = threads;
+  load.strict = options.strict;
+  load.allow_external_files = options.allow_external_files;
+  load.tr_is_opacity = options.tr_is_opacity;
+  Diagnostics diagnostics;
+  SceneDesc desc = load_scene(options.scene, load, diagnostics);
+  for (const std::string& line : diagnostics.lines()) warn(options, line);
+  return desc;
+}
+
+void save(const fs::path& output, const Frame& frame, int threads) {
+  enter_phase(Phase::saving);
+  write_image(output, frame.rgb, frame.width, frame.height, threads);
+}
+
+} // namespace
+
+int run(const Options& options, Clock::time_point start) {
+  for (const std::string& warning : options.warnings) warn(options, warning);
+  RunStats stats;
+  TracerSettings tracer_settings;
+  tracer_settings.isa = choose_isa(options);
+  tracer_settings.threads = stats.threads = choose_threads(options);
+  check_image_size(options);
+  const fs::path output = choose_output(options);
+
+  Clock::time_point phase_start = Clock::now();
+  SceneDesc desc = read_scene(options, stats.threads);
+  const Aabb bounds = bounds_of(desc);
+  const Camera camera = choose_camera(options, bounds);
+  choose_lights(options, bounds, camera, desc);
+  stats.read_seconds = seconds_since(phase_start);
+
+  phase_start = Clock::now();
+  const Tracer tracer(Scene(std::move(desc)), tracer_settings);
+  stats.build_seconds = seconds_since(phase_start);
+
+  const RenderSettings settings = render_settings(options, stats.threads);
+  std::atomic<double> share{0};
+  enter_phase(Phase::rendering);
+  phase_start = Clock::now();
+  const Frame frame = watched(options, "rendering", settings, share,
+                              [&](const RenderSettings& with) { return render(tracer, camera, with); });
+  stats.render_seconds = seconds_since(phase_start);
+  if (!frame.complete) return report_interrupted(share);
+  describe(options, tracer, frame, stats);
+
+  if (options.verify) {
+    phase_start = Clock::now();
+    const Frame expected = watched(options, "verifying", settings, share, [&](const RenderSettings& with) {
+      return render_reference(tracer.scene(), camera, with);
+    });
+    if (!expected.complete) return report_interrupted(share);
+    stats.verify = compare(frame, expected);
+    stats.verify_seconds = seconds_since(phase_start);
+  }
+  enter_phase(Phase::idle);
+
+  if (!output.empty()) {
+    phase_start = Clock::now();
+    save(output, frame, stats.threads);
+    stats.output = output.string();
+    stats.write_seconds = seconds_since(phase_start);
+    if (signal_received() != 0) {
+      print_error("interrupted after '" + stats.output + "' was written");
+      return 128 + signal_received();
+    }
+    enter_phase(Phase::idle);
+  }
+
+  stats.peak_rss_bytes = peak_rss_bytes();
+  stats.total_seconds = seconds_since(start);
+  report(options, stats);
+  if (!stats.verify || (stats.verify->pixels == 0 && stats.verify->primitives == 0)) return exit_done;
+  print_error("the kernels and the plain scalar code make different pictures");
+  return exit_differs;
+}
+
+} // namespace fastrt::cli
