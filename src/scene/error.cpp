@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fastrt/error.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <initializer_list>
+
+namespace fastrt {
+
+namespace {
+
+// A name out of a file may hold anything; a terminal must not obey it and the message must stay one line.
+std::string without_control_characters(const std::string& text) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string shown;
+  shown.reserve(text.size());
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7F) {
+      shown += c;
+      continue;
+    }
+    shown += "\\x";
+    shown += digits[byte >> 4U];
+    shown += digits[byte & 15U];
+  }
+  return shown;
+}
+
+std::string located(const std::string& file, std::size_t line, std::size_t column,
+                    const std::string& message) {
+  std::string text = file;
+  for (const std::size_t number : {line, line == 0 ? 0 : column}) {
+    if (number == 0) break;
+    text += ':';
+    text += std::to_string(number);
+  }
+  if (!text.empty()) text += ": ";
+  return without_control_characters(text + message);
+}
+
+} // namespace
+
+InputError::InputError(const std::string& file, std::size_t line, std::size_t column,
+                       const std::string& message)
+    : Error(located(file, line, column, message)) {}
+
+void assertion_failed(const char* claim, const char* file, int line, double left, double right) noexcept {
+  static_cast<void>(
+      std::fprintf(stderr, "%s:%d: assertion failed: %s (%.17g, %.17g)\n", file, line, claim, left, right));
+  std::abort();
+}
+
+} // namespace fastrt

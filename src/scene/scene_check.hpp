@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene must fulfil before anything is traced in it.
+#pragma once
+
+#include <fastrt/scene.hpp>
+
+namespace fastrt {
+
+// Throws LimitError for too many primitives, and InputError for the first column of a wrong length, number
+// that is not finite, index out of range, or material or light that can't be used. The message does not
+// depend on the number of threads.
+void check_scene(const SceneDesc& desc);
+
+// The parts of it.
+void check_materials(const SceneDesc& desc);
+void check_lights(const SceneDesc& desc);
+
+} // namespace fastrt
