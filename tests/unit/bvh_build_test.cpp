@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/accel/check_tree.hpp"
+#include "src/accel/tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace fastrt {
+namespace {
+
+// A small generator of its own, so that every platform tests the same boxes.
+class Random {
+public:
+  float operator()(float first, float last) {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return first + (last - first) * (static_cast<float>(state_ >> 40U) * 0x1p-24F);
+  }
+
+private:
+  std::uint64_t state_ = 1;
+};
+
+PrimitiveBox box_around(float x, float y, float z, float half, std::size_t id, std::uint32_t group = 0) {
+  return {
+      {x - half, y - half, z - half}, static_cast<std::uint32_t>(id), {x + half, y + half, z + half}, group};
+}
+
+using Generator = std::function<PrimitiveBox(std::size_t, Random&)>;
+
+struct Case {
+  const char* name;
+  std::size_t count;
+  Generator generate;
+
+  Column<PrimitiveBox> boxes() const {
+    Column<PrimitiveBox> result;
+    Random random;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(generate(i, random));
+    return result;
+  }
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+PrimitiveBox random_box(std::size_t i, Random& r) {
+  return box_around(r(-1, 1), r(-1, 1), r(-1, 1), r(0, 0.02F), i);
+}
+
+PrimitiveBox sheet(std::size_t i, Random& r) {
+  PrimitiveBox box = box_around(r(-1, 1), 0, r(-1, 1), 0.01F, i);
+  box.lower[1] = box.upper[1] = 3;
+  return box;
+}
+
+PrimitiveBox huge_or_small(std::size_t i, Random& r) {
+  return box_around(r(-1, 1), r(-1, 1), r(-1, 1), i % 50 == 0 ? 1e6F : 1e-4F, i);
+}
+
+PrimitiveBox exponential(std::size_t i, Random& /*unused*/) {
+  const float x = std::ldexp(1.0F, static_cast<int>(i % 250) - 125);
+  return box_around(x, x, 0, 0, i);
+}
+
+PrimitiveBox two_groups(std::size_t i, Random& r) {
+  PrimitiveBox box = random_box(i, r);
+  box.group = i % 3 == 0 ? 7 : 2;
+  return box;
+}
+
+// Boxes of all groups in one spot: only the group tells them apart.
+PrimitiveBox all_groups_at_once(std::size_t i, Random& /*unused*/) {
+  return box_around(1, 2, 3, 1, i, static_cast<std::uint32_t>(i % max_groups));
+}
+
+PrimitiveBox extreme(std::size_t i, Random& r) {
+  const float size = i % 2 == 0 ? 3e38F : 1e-38F;
+  return box_around(r(-1, 1) * size, r(-1, 1) * size, r(-1, 1) * size, 0, i);
+}
+
+const Case cases[] = {
+    {"random", 5000, random_box},
+    {"many", 150000, random_box},
+    {"sheet", 40000, sheet},
+    {"identical", 3001, [](std::size_t i, Random&) { return box_around(1, 2, 3, 0.5F, i); }},
+    {"identical_many", 100000, [](std::size_t i, Random&) { return box_around(1, 2, 3, 0.5F, i); }},
+    {"huge_or_small", 20000, huge_or_small},
+    {"points_on_a_line", 10000,
+     [](std::size_t i, Random&) { return box_around(static_cast<float>(i), 0, 0, 0, i); }},
+    {"diagonal", 40000,
+     [](std::size_t i, Random&) {
+       const auto x = static_cast<float>(i);
+       return box_around(x, -x, 2 * x, 0.7F, i);
+     }},
+    {"exponential", 250, exponential},
+    {"exponential_many", 120000, exponential},
+    {"two_groups", 30000, two_groups},
+    {"all_groups_at_once", 1000, all_groups_at_once},
+    {"extreme", 2000, extreme},
+    {"extreme_many", 60000, extreme},
+};
+
+class BuildOf : public testing::TestWithParam<Case> {};
+
+TEST_P(BuildOf, keeps_its_promises) {
+  const Column<PrimitiveBox> boxes = GetParam().boxes();
+  Column<PrimitiveBox> scratch = boxes;
+  const BinaryTree tree = build_binary_tree(scratch, {});
+  EXPECT_EQ(check_tree(tree, boxes), "");
+  const WideTree wide = collapse(tree, {});
+  EXPECT_EQ(check_tree(wide, boxes), "");
+  EXPECT_LE(tree_depth(wide), max_tree_depth);
+  EXPECT_TRUE(sah_cost(wide) >= 1);
+}
+
+TEST_P(BuildOf, is_the_same_for_any_number_of_threads) {
+  const Column<PrimitiveBox> boxes = GetParam().boxes();
+  const auto bytes = [](const auto& column) {
+    return std::string(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(*column.data()));
+  };
+  Column<PrimitiveBox> scratch = boxes;
+  const BinaryTree tree = build_binary_tree(scratch, {1});
+  const WideTree wide = collapse(tree, {1});
+  for (const int threads : {2, 8}) {
+    scratch = boxes;
+    const BinaryTree again = build_binary_tree(scratch, {threads});
+    EXPECT_TRUE(bytes(tree.nodes) == bytes(again.nodes));
+    EXPECT_TRUE(bytes(tree.order) == bytes(again.order));
+    EXPECT_TRUE(bytes(tree.group_of_leaf) == bytes(again.group_of_leaf));
+    const WideTree wide_again = collapse(tree, {threads});
+    EXPECT_TRUE(bytes(wide.nodes) == bytes(wide_again.nodes));
+    for (std::size_t g = 0; g < max_groups; ++g)
+      EXPECT_TRUE(bytes(wide.slots[g]) == bytes(wide_again.slots[g]));
+    EXPECT_EQ(wide.root, wide_again.root);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bvh, BuildOf, testing::ValuesIn(cases),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Build, takes_any_small_count) {
+  for (std::size_t count = 0; count <= 100; ++count) {
+    const Case small{"", count, random_box};
+    const Column<PrimitiveBox> boxes = small.boxes();
+    Column<PrimitiveBox> scratch = boxes;
+    const BinaryTree tree = build_binary_tree(scratch, {});
+    EXPECT_EQ(check_tree(tree, boxes), "") << count;
+    const WideTree wide = collapse(tree, {});
+    EXPECT_EQ(check_tree(wide, boxes), "") << count;
+    EXPECT_EQ(wide.root == no_child, count == 0);
+    if (count >= 1 && count <= block_size) {
+      EXPECT_TRUE(is_leaf(wide.root));
+    }
+  }
+}
+
+TEST(Build, makes_groups_share_no_leaf_however_few) {
+  Column<PrimitiveBox> boxes{box_around(0, 0, 0, 1, 5, 1), box_around(0, 0, 0, 1, 9, 0)};
+  const Column<PrimitiveBox> original = boxes;
+  const BinaryTree tree = build_binary_tree(boxes, {});
+  EXPECT_EQ(check_tree(tree, original), "");
+  EXPECT_EQ(tree.nodes.size(), 3U);
+}
+
+TEST(Build, fills_its_blocks) {
+  const Column<PrimitiveBox> boxes = cases[1].boxes();
+  Column<PrimitiveBox> scratch = boxes;
+  const WideTree wide = collapse(build_binary_tree(scratch, {}), {});
+  EXPECT_GT(static_cast<double>(boxes.size()), 0.85 * static_cast<double>(wide.slots[0].size()));
+}
+
+TEST(Build, finds_the_gap_between_clusters) {
+  Column<PrimitiveBox> boxes;
+  Random random;
+  for (std::size_t i = 0; i < 1000; ++i)
+    boxes.push_back(
+        box_around((i % 2 == 0 ? -10.0F : 10.0F) + random(-1, 1), random(-1, 1), random(-1, 1), 0.1F, i));
+  const BinaryTree tree = build_binary_tree(boxes, {});
+  const BinaryNode& left = tree.nodes[tree.nodes[0].first];
+  const BinaryNode& right = tree.nodes[tree.nodes[0].first + 1];
+  EXPECT_LT(left.upper[0], -8);
+  EXPECT_GT(right.lower[0], 8);
+}
+
+TEST(Statistics, count_by_the_book) {
+  Column<PrimitiveBox> boxes;
+  for (std::size_t i = 0; i < 8; ++i) boxes.push_back(box_around(i < 4 ? 0.0F : 9.0F, 0, 0, 0.5F, i));
+  const WideTree wide = collapse(build_binary_tree(boxes, {}), {});
+  ASSERT_EQ(wide.nodes.size(), 1U);
+  EXPECT_EQ(leaf_count(wide), 2U);
+  EXPECT_EQ(tree_depth(wide), 2);
+  // The root's box is 10 x 1 x 1 (area 42), its two leaves of one block are unit cubes (area 6).
+  EXPECT_DOUBLE_EQ(sah_cost(wide), 1 + 2 * 6.0 / 42.0);
+  EXPECT_EQ(sah_cost(WideTree{}), 0);
+  EXPECT_EQ(tree_depth(WideTree{}), 0);
+  EXPECT_EQ(leaf_count(WideTree{}), 0U);
+}
+
+} // namespace
+} // namespace fastrt
