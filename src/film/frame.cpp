@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/film/frame.hpp"
+
+#include <fastrt/error.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace fastrt {
+
+void check(const RenderSettings& settings) {
+  if (settings.width < 1 || settings.width > 65536 || settings.height < 1 || settings.height > 65536)
+    throw UsageError("picture size " + std::to_string(settings.width) + "x" +
+                     std::to_string(settings.height) + " is not within 1..65536");
+  if (settings.samples_per_pixel < 1)
+    throw UsageError("samples per pixel must be at least 1, not " +
+                     std::to_string(settings.samples_per_pixel));
+}
+
+Frame black_frame(int width, int height) {
+  Frame frame;
+  frame.width = width;
+  frame.height = height;
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  frame.rgb.assign(3 * pixels, 0.0F);
+  frame.primitive.assign(pixels, no_primitive);
+  return frame;
+}
+
+bool FrameProgress::stopped() {
+  if (settings_->cancelled != nullptr && settings_->cancelled->load(std::memory_order_relaxed))
+    stopped_ = true;
+  return stopped_;
+}
+
+void FrameProgress::part_done(const RayCounts& rays) {
+  const std::lock_guard lock(mutex_);
+  rays_.primary += rays.primary;
+  rays_.shadow += rays.shadow;
+  rays_.reflected += rays.reflected;
+  rays_.refracted += rays.refracted;
+  ++parts_done_;
+  if (settings_->progress) settings_->progress(static_cast<double>(parts_done_) / parts_);
+}
+
+void FrameProgress::failed(std::exception_ptr error) {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  if (!error_) error_ = std::move(error);
+}
+
+void FrameProgress::finish(Frame& frame) {
+  if (error_) std::rethrow_exception(error_);
+  frame.rays = rays_;
+  frame.complete = parts_done_ == parts_;
+}
+
+FrameDifference compare(const Frame& a, const Frame& b) {
+  FrameDifference difference;
+  for (std::size_t pixel = 0; pixel < a.primitive.size(); ++pixel) {
+    if (std::memcmp(&a.rgb[3 * pixel], &b.rgb[3 * pixel], 3 * sizeof(float)) != 0) ++difference.pixels;
+    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
+      const double channel = std::fabs(static_cast<double>(a.rgb[c]) - static_cast<double>(b.rgb[c]));
+      if (channel > difference.largest) difference.largest = channel;
+    }
+    if (a.primitive[pixel] != b.primitive[pixel]) ++difference.primitives;
+  }
+  return difference;
+}
+
+} // namespace fastrt

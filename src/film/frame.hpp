@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every way of making a frame shares: its settings' ranges, its memory, its progress.
+#pragma once
+
+#include <fastrt/render.hpp>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+
+namespace fastrt {
+
+// Throws UsageError for settings out of their ranges.
+void check(const RenderSettings& settings);
+
+// A black frame that sees nothing.
+Frame black_frame(int width, int height);
+
+// How far a frame is, shared by the threads that make it in `parts` parts (rows or tiles).
+class FrameProgress {
+public:
+  FrameProgress(const RenderSettings& settings, int parts) : settings_(&settings), parts_(parts) {}
+
+  // Whether to leave the remaining parts out: cancelled, or a part failed.
+  bool stopped();
+  void part_done(const RayCounts& rays);
+  // Keeps the first exception; finish() throws it.
+  void failed(std::exception_ptr error);
+  // Fills in the frame's counts and whether it is complete.
+  void finish(Frame& frame);
+
+private:
+  const RenderSettings* settings_;
+  int parts_;
+  std::mutex mutex_;
+  RayCounts rays_;
+  int parts_done_ = 0;
+  std::atomic<bool> stopped_{false};
+  std::exception_ptr error_;
+};
+
+} // namespace fastrt

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// A packet of as many rays as a register has lanes through the wide tree: one child's box against all rays,
+// one primitive against all rays. A packet that has fallen apart goes on ray by ray.
+#pragma once
+
+#include "src/kernels/ray_traversal.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+using PacketF = Floats<widest>;
+using PacketI = Ints<widest>;
+using PacketM = Mask<widest>;
+
+// With this many rays left in a subtree or fewer, each follows it alone.
+inline constexpr int lone_ray_limit = widest / 8 + 1;
+
+struct Packet {
+  V3<PacketF> origin, dir;
+  SlabAxis<PacketF> x, y, z;
+  PacketF t_min, t;
+  PacketI exclude, primitive;
+};
+
+struct PacketEntry {
+  std::uint32_t child;
+  std::uint32_t bits; // the rays that met its box
+  alignas(64) float near[widest];
+};
+
+FASTRT_INLINE Packet load_packet(const GeometryView& scene, const RayBatch& rays, const HitBatch& hits,
+                                 int first) {
+  Packet p;
+  p.origin = load3<PacketF>(rays.origin_x + first, rays.origin_y + first, rays.origin_z + first);
+  p.dir = load3<PacketF>(rays.dir_x + first, rays.dir_y + first, rays.dir_z + first);
+  const PacketF padding = padding_of(p.origin, PacketF(scene.largest_coordinate));
+  p.x = slab_axis(p.origin.x, p.dir.x, padding);
+  p.y = slab_axis(p.origin.y, p.dir.y, padding);
+  p.z = slab_axis(p.origin.z, p.dir.z, padding);
+  p.t_min = load<PacketF>(rays.t_min + first);
+  p.t = load<PacketF>(hits.t + first);
+  p.exclude = load<PacketI>(rays.exclude + first);
+  p.primitive = load<PacketI>(hits.primitive + first);
+  return p;
+}
+
+// Lanes that hold a live ray with a finite origin and a direction.
+FASTRT_INLINE PacketM traceable_lanes(const Packet& p, int live) {
+  const PacketF origin = ((abs(p.origin.x) + abs(p.origin.y)) + abs(p.origin.z)) * PacketF(0.0F);
+  const PacketF dir = (abs(p.dir.x) + abs(p.dir.y)) + abs(p.dir.z);
+  const std::uint32_t bits = live >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << live) - 1U;
+  return (origin == PacketF(0.0F)) & (dir > PacketF(0.0F)) & (dir < PacketF(__builtin_inff())) &
+         from_bits<widest>(bits);
+}
+
+// Takes hits at `t` of one primitive for the lanes in `hit`: smallest t first, then smallest id. Returns the
+// lanes that took it.
+FASTRT_INLINE std::uint32_t keep_closest(PacketF& best_t, PacketI& best_primitive, const PacketI& exclude,
+                                         const PacketM& hit, const PacketF& t, std::int32_t primitive) {
+  const PacketI id(primitive);
+  const PacketM earlier = simd::bool_cast(id < best_primitive);
+  const PacketM other = simd::bool_cast(id != exclude);
+  const PacketM closer = hit & ((t < best_t) | ((t == best_t) & earlier)) & other;
+  const std::uint32_t bits = to_bits(closer);
+  if (bits == 0) return 0;
+  best_t = select(closer, t, best_t);
+  best_primitive = select_ints<PacketF>(closer, id, best_primitive);
+  return bits;
+}
+
+FASTRT_INLINE V3<PacketF> vertex(const TriangleBlock& block, int v, int i) {
+  return broadcast3<PacketF>(block.x[v][i], block.y[v][i], block.z[v][i]);
+}
+
+FASTRT_INLINE void meet_leaf(const GeometryView& scene, Packet& p, const PacketM& active,
+                             std::uint32_t leaf) {
+  const std::uint32_t first = leaf_first_block(leaf);
+  const std::uint32_t end = first + leaf_blocks(leaf);
+  for (std::uint32_t b = first; b != end; ++b)
+    for (int i = 0; i < block_size; ++i) {
+      if (leaf_group(leaf) == triangle_group) {
+        const TriangleBlock& block = scene.triangles[b];
+        if (block.primitive[i] < 0) break;
+        const TriangleSetup<PacketF> setup = set_up_triangle(
+            vertex(block, 0, i) - p.origin, vertex(block, 1, i) - p.origin, vertex(block, 2, i) - p.origin);
+        const TriangleLanes<PacketF> lanes = intersect_triangle(setup, p.dir);
+        const PacketM hit = lanes.inside & active & (lanes.t > p.t_min);
+        if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, lanes.t, block.primitive[i]);
+      } else {
+        const SphereBlock& block = scene.spheres[b];
+        if (block.primitive[i] < 0) break;
+        const SphereLanes<PacketF> lanes =
+            intersect_sphere(broadcast3<PacketF>(block.x[i], block.y[i], block.z[i]),
+                             PacketF(block.radius[i]), p.origin, p.dir, p.t_min);
+        const PacketM hit = lanes.hit & active;
+        if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, lanes.t, block.primitive[i]);
+      }
+    }
+}
+
+// The packet's slab test against child i of a node.
+FASTRT_INLINE SlabLanes<PacketF> meet_child(const Packet& p, const WideNode& node, int i) {
+  const PacketF zero(0.0F);
+  // Rays of one packet may point either way, so each lane picks its own planes. The inverse of -0 is -inf, so
+  // its sign is that of the direction's sign bit.
+  const PacketM x = p.x.inverse < zero, y = p.y.inverse < zero, z = p.z.inverse < zero;
+  const PacketF lx(node.lower_x[i]), ux(node.upper_x[i]), ly(node.lower_y[i]), uy(node.upper_y[i]),
+      lz(node.lower_z[i]), uz(node.upper_z[i]);
+  return intersect_slabs(p.x, p.y, p.z, V3<PacketF>{select(x, ux, lx), select(y, uy, ly), select(z, uz, lz)},
+                         V3<PacketF>{select(x, lx, ux), select(y, ly, uy), select(z, lz, uz)}, p.t_min,
+                         depth_bound(p.t));
+}
+
+FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, std::uint32_t child,
+                                        std::uint32_t bits, const PacketF& near) {
+  alignas(64) float lanes[widest];
+  near.store_aligned(lanes);
+  const int lane = __builtin_ctz(bits);
+  PacketEntry* place = top;
+  for (; place != bottom && place[-1].near[lane] < lanes[lane]; --place) *place = place[-1];
+  place->child = child;
+  place->bits = bits;
+  near.store_aligned(place->near);
+  return top + 1;
+}
+
+// The rays in `bits` follow the subtree `child` one by one.
+template <bool any>
+FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, int first,
+                               std::uint32_t child, std::uint32_t bits, Packet& p) {
+  alignas(64) float t[widest];
+  alignas(64) std::int32_t primitive[widest];
+  p.t.store_aligned(t);
+  p.primitive.store_aligned(primitive);
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    LoneRay ray = make_lone_ray(scene, rays, first + lane, t[lane], primitive[lane]);
+    trace_lone_ray<any>(scene, ray, child);
+    t[lane] = ray.t;
+    primitive[lane] = ray.primitive;
+  }
+  p.t = PacketF::load_aligned(t);
+  p.primitive = PacketI::load_aligned(primitive);
+}
+
+// Rays first .. first + widest - 1 of the batch, as one packet.
+template <bool any>
+static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                         int first) noexcept {
+  Packet p = load_packet(scene, rays, hits, first);
+  const std::uint32_t live = to_bits(traceable_lanes(p, rays.count - first));
+  if (live == 0) return;
+  PacketEntry stack[max_tree_stack];
+  stack[0].child = scene.root;
+  stack[0].bits = live;
+  p.t_min.store_aligned(stack[0].near);
+  PacketEntry* top = stack + 1;
+  while (top != stack) {
+    --top;
+    const std::uint32_t child = top->child;
+    PacketM active = from_bits<widest>(top->bits) & (PacketF::load_aligned(top->near) <= depth_bound(p.t));
+    if constexpr (any) active = active & simd::bool_cast(p.primitive < PacketI(0));
+    const std::uint32_t active_bits = to_bits(active);
+    if (active_bits == 0) continue;
+    if (is_leaf(child)) {
+      meet_leaf(scene, p, active, child);
+      continue;
+    }
+    if (__builtin_popcount(active_bits) <= lone_ray_limit) {
+      go_on_alone<any>(scene, rays, first, child, active_bits, p);
+      continue;
+    }
+    const WideNode& node = scene.nodes[child];
+    PacketEntry* const bottom = top;
+    for (int i = 0; i < wide_children && node.child[i] != no_child; ++i) {
+      const SlabLanes<PacketF> slab = meet_child(p, node, i);
+      const std::uint32_t bits = to_bits((slab.near <= slab.far) & active);
+      if (bits != 0) top = push_ordered(top, bottom, node.child[i], bits, slab.near);
+    }
+  }
+  p.t.store_unaligned(hits.t + first);
+  p.primitive.store_unaligned(hits.primitive + first);
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

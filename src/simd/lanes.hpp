@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// The floor under the kernels: xsimd's batches by width, and the few operations that xsimd 8.1 lacks.
+//
+// Every kernel object compiles its own copy of xsimd: the namespace is renamed per ISA, so that no inline
+// function of one object can be merged by the linker with the same function compiled for another instruction
+// set.
+#pragma once
+
+#if !defined(FASTRT_ISA_NAMESPACE) || !defined(FASTRT_XSIMD_NAMESPACE)
+#error "kernel files are compiled once per ISA, by fastrt_kernels() in cmake/FastrtTargets.cmake"
+#endif
+
+#define xsimd FASTRT_XSIMD_NAMESPACE
+#include <xsimd/xsimd.hpp>
+#undef xsimd
+
+#include <cstdint>
+
+// In an unnamed namespace or with this on it: nothing of a kernel file may be seen by the linker.
+#ifndef FASTRT_INLINE
+#define FASTRT_INLINE [[gnu::always_inline]] static inline
+#endif
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+namespace simd = ::FASTRT_XSIMD_NAMESPACE;
+
+// The widest batch that the flags of this object allow, and the architecture tag of each width.
+#if defined(__AVX512DQ__)
+inline constexpr int widest = 16;
+#elif defined(__AVX2__)
+inline constexpr int widest = 8;
+#else
+inline constexpr int widest = 4;
+#endif
+
+template <int W>
+struct ArchOf;
+template <>
+struct ArchOf<4> {
+  using type = simd::sse4_2;
+};
+#if defined(__AVX2__)
+template <>
+struct ArchOf<8> {
+  using type = simd::avx2;
+};
+#endif
+#if defined(__AVX512DQ__)
+template <>
+struct ArchOf<16> {
+  using type = simd::avx512dq;
+};
+#endif
+
+// W floats, W ints and their masks.
+template <int W>
+using Floats = simd::batch<float, typename ArchOf<W>::type>;
+template <int W>
+using Ints = simd::batch<std::int32_t, typename ArchOf<W>::type>;
+template <int W>
+using Mask = simd::batch_bool<float, typename ArchOf<W>::type>;
+
+template <class F>
+inline constexpr int width_of = static_cast<int>(F::size);
+template <class F>
+using IntsOf = Ints<width_of<F>>;
+template <class F>
+using MaskOf = Mask<width_of<F>>;
+
+// One bit per lane, lane 0 lowest.
+template <class A>
+FASTRT_INLINE std::uint32_t to_bits(const simd::batch_bool<float, A>& mask) {
+  constexpr int width = static_cast<int>(simd::batch_bool<float, A>::size);
+#if defined(__AVX512DQ__)
+  if constexpr (width == 16) return static_cast<std::uint32_t>(static_cast<__mmask16>(mask.data));
+#endif
+#if defined(__AVX2__)
+  if constexpr (width == 8) return static_cast<std::uint32_t>(_mm256_movemask_ps(mask.data));
+#endif
+  if constexpr (width == 4) return static_cast<std::uint32_t>(_mm_movemask_ps(mask.data));
+}
+
+template <int W>
+FASTRT_INLINE Mask<W> from_bits(std::uint32_t bits) {
+#if defined(__AVX512DQ__)
+  if constexpr (W == 16) return Mask<16>(static_cast<__mmask16>(bits));
+#endif
+#if defined(__AVX2__)
+  if constexpr (W == 8) {
+    const __m256i lane_bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lane_bit);
+    return Mask<8>(_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, lane_bit)));
+  }
+#endif
+  if constexpr (W == 4) {
+    const __m128i lane_bit = _mm_setr_epi32(1, 2, 4, 8);
+    const __m128i set = _mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), lane_bit);
+    return Mask<4>(_mm_castsi128_ps(_mm_cmpeq_epi32(set, lane_bit)));
+  }
+}
+
+template <class F>
+FASTRT_INLINE F load(const float* from) {
+  return F::load_unaligned(from);
+}
+template <class I>
+FASTRT_INLINE I load(const std::int32_t* from) {
+  return I::load_unaligned(from);
+}
+
+// min, max, select and abs of batches are xsimd's own, found by argument-dependent lookup. min and max give
+// the second operand when one is NaN, like minps; docs/numerics.md builds on it.
+
+// The mask that a comparison of floats gave, over ints.
+template <class F>
+FASTRT_INLINE IntsOf<F> select_ints(const MaskOf<F>& mask, const IntsOf<F>& yes, const IntsOf<F>& no) {
+  return simd::select(simd::bool_cast(mask), yes, no);
+}
+
+template <class F>
+FASTRT_INLINE F as_floats(const IntsOf<F>& bits) {
+  return simd::bitwise_cast<F>(bits);
+}
+template <class F>
+FASTRT_INLINE IntsOf<F> as_ints(const F& value) {
+  return simd::bitwise_cast<IntsOf<F>>(value);
+}
+
+// The sign bit of `value`, all other bits 0.
+template <class F>
+FASTRT_INLINE F sign_bit(const F& value) {
+  return as_floats<F>(as_ints(value) & IntsOf<F>(static_cast<std::int32_t>(0x80000000U)));
+}
+// Flips the sign where `sign` (as sign_bit gives it) is set.
+template <class F>
+FASTRT_INLINE F flip(const F& value, const F& sign) {
+  return as_floats<F>(as_ints(value) ^ as_ints(sign));
+}
+template <class F>
+FASTRT_INLINE F negate(const F& value) {
+  return flip(value, F(-0.0F));
+}
+
+template <class F>
+FASTRT_INLINE float reduce_max(const F& value) {
+  if constexpr (width_of<F> == 4) {
+    __m128 m = value.data;
+    m = _mm_max_ps(m, _mm_movehl_ps(m, m));
+    m = _mm_max_ss(m, _mm_shuffle_ps(m, m, 1));
+    return _mm_cvtss_f32(m);
+  }
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) {
+    return reduce_max(
+        Floats<4>(_mm_max_ps(_mm256_castps256_ps128(value.data), _mm256_extractf128_ps(value.data, 1))));
+  }
+#endif
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) {
+    return reduce_max(
+        Floats<8>(_mm256_max_ps(_mm512_castps512_ps256(value.data), _mm512_extractf32x8_ps(value.data, 1))));
+  }
+#endif
+}
+template <class F>
+FASTRT_INLINE float reduce_min(const F& value) {
+  return -reduce_max(negate(value));
+}
+
+// What shared_math.hpp asks of a batch.
+template <int W>
+struct BatchOps {
+  using F = Floats<W>;
+  using I = Ints<W>;
+  [[gnu::always_inline]] static inline I bits(const F& x) { return as_ints(x); }
+  [[gnu::always_inline]] static inline F from_bits(const I& x) { return as_floats<F>(x); }
+  [[gnu::always_inline]] static inline F to_float(const I& x) { return simd::to_float(x); }
+  [[gnu::always_inline]] static inline I to_int(const F& x) { return simd::to_int(x); }
+  [[gnu::always_inline]] static inline F select(const Mask<W>& mask, const F& yes, const F& no) {
+    return simd::select(mask, yes, no);
+  }
+};
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

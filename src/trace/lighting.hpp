@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// The local part of the shading equation: ambient light, and each light with its shadows (docs/numerics.md,
+// "Shading").
+#pragma once
+
+#include "src/kernels/batch_queries.hpp"
+#include "src/simd/shared_math.hpp"
+#include "src/trace/surface.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+inline constexpr float offset_share = 0x1p-20F; // h = M * 2^-20
+
+// The rays i .. i + widest - 1 of a batch that are in it and hit something.
+FASTRT_INLINE std::uint32_t hit_bits(const PathBatch& rays, const HitBatch& hits, int i) {
+  const int live = rays.count - i;
+  const std::uint32_t in_batch = live >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << live) - 1U;
+  return to_bits(simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0))) & in_batch;
+}
+
+// Calls use(row, mask, bits) once for each material among the lanes in `bits`.
+template <class Use>
+FASTRT_INLINE void for_each_material(const ShadingView& scene, const std::int32_t* materials,
+                                     std::uint32_t bits, const Use& use) {
+  const PathI ids = load<PathI>(materials);
+  while (bits != 0) {
+    const std::int32_t id = materials[__builtin_ctz(bits)];
+    const std::uint32_t same = to_bits(simd::bool_cast(ids == PathI(id))) & bits;
+    use(scene.materials[id], from_bits<widest>(same), same);
+    bits &= ~same;
+  }
+}
+
+FASTRT_INLINE PathV load_point(const SurfaceBatch& s, int i) {
+  return load3<PathF>(s.point_x + i, s.point_y + i, s.point_z + i);
+}
+FASTRT_INLINE PathV load_geometric(const SurfaceBatch& s, int i) {
+  return load3<PathF>(s.geometric_x + i, s.geometric_y + i, s.geometric_z + i);
+}
+FASTRT_INLINE PathV load_shading(const SurfaceBatch& s, int i) {
+  return load3<PathF>(s.shading_x + i, s.shading_y + i, s.shading_z + i);
+}
+FASTRT_INLINE PathV load_viewer(const SurfaceBatch& s, int i) {
+  return load3<PathF>(s.viewer_x + i, s.viewer_y + i, s.viewer_z + i);
+}
+
+// L = Ka * Ia; and which lanes answer light at all.
+FASTRT_INLINE void begin_local_light(const ShadingView& scene, std::uint32_t bits, int i, SurfaceBatch& s) {
+  PathV local = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
+  std::uint32_t& shaded = s.shaded[i / widest];
+  shaded = 0;
+  for_each_material(
+      scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t same) {
+        local = select(mask, broadcast3<PathF>(row.ambient) * broadcast3<PathF>(scene.ambient), local);
+        if (row.unlit == 0) shaded |= same;
+      });
+  store3(local, s.local_r + i, s.local_g + i, s.local_b + i);
+}
+
+// Direction and cosine of the light for rays i ..; returns the lanes that face it.
+FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch& s, std::uint32_t bits,
+                                       int i, LightBatch& out) {
+  const PathV to_light = light.directional != 0
+                             ? broadcast3<PathF>(light.to_light)
+                             : normalize(broadcast3<PathF>(light.position) - load_point(s, i));
+  const PathF zero(0.0F);
+  const PathF cosine = dot(load_shading(s, i), to_light);
+  store3(to_light, out.to_light_x + i, out.to_light_y + i, out.to_light_z + i);
+  cosine.store_aligned(out.cosine + i);
+  return to_bits((dot(load_geometric(s, i), to_light) > zero) & (cosine > zero)) & bits;
+}
+
+// The shadow rays of lanes i .., row for row; those not in `bits` can't hit anything.
+FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s, std::uint32_t bits, int i,
+                                    RayBatch& rays) {
+  const PathV normal = load_geometric(s, i);
+  const PathF magnitude = PathF::load_aligned(s.magnitude + i);
+  PathF reach(1.0F);
+  if (light.directional != 0) {
+    const PathV origin = load_point(s, i) + normal * (magnitude * PathF(offset_share));
+    store3(origin, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+    store3(broadcast3<PathF>(light.to_light), rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+    reach = PathF(__builtin_inff());
+  } else {
+    const PathV position = broadcast3<PathF>(light.position);
+    const PathF offset = max(magnitude, PathF(light.largest_coordinate)) * PathF(offset_share);
+    store3(position, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+    store3((load_point(s, i) + normal * offset) - position, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+  }
+  const PathF none(0.0F);
+  none.store_aligned(rays.t_min + i);
+  simd::select(from_bits<widest>(bits), reach, none).store_aligned(rays.t_max + i);
+  load<PathI>(s.planar + i).store_aligned(rays.exclude + i);
+}
+
+FASTRT_INLINE void store_visibility(const PathV& visible, int i, LightBatch& light) {
+  store3(visible, light.visible_r + i, light.visible_g + i, light.visible_b + i);
+}
+
+// Shadows where nothing is transparent: 0 or 1.
+FASTRT_INLINE void trace_opaque_shadows(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                                        LightBatch& light) {
+  find_any_hits(scene, rays, hits);
+  for (int i = 0; i < rays.count; i += widest) {
+    const PathM free = simd::bool_cast(PathI::load_aligned(hits.primitive + i) < PathI(0));
+    const PathF visible = simd::select(free, PathF(1.0F), PathF(0.0F));
+    store_visibility({visible, visible, visible}, i, light);
+  }
+}
+
+FASTRT_INLINE const MaterialRow& material_of(const ShadingView& scene, std::int32_t primitive) {
+  const auto index = static_cast<std::uint32_t>(primitive);
+  return scene.materials[index < scene.triangle_count ? scene.triangle_material[index]
+                                                      : scene.sphere_material[index - scene.triangle_count]];
+}
+
+// One surface on the way of shadow ray i: takes what it holds back. Returns whether the ray goes on behind
+// it.
+FASTRT_INLINE bool pass_surface(const ShadingView& scene, const HitBatch& hits, int i, LightBatch& light) {
+  const MaterialRow& row = material_of(scene, hits.primitive[i]);
+  if (row.has_transmit == 0) {
+    light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
+    return false;
+  }
+  light.visible_r[i] = light.visible_r[i] * row.transmit[0];
+  light.visible_g[i] = light.visible_g[i] * row.transmit[1];
+  light.visible_b[i] = light.visible_b[i] * row.transmit[2];
+  return light.visible_r[i] != 0.0F || light.visible_g[i] != 0.0F || light.visible_b[i] != 0.0F;
+}
+
+// Shadows through transparent surfaces: from surface to surface along each ray, in order of t.
+FASTRT_INLINE void trace_coloured_shadows(const SceneView& scene, RayBatch& rays, HitBatch& hits,
+                                          LightBatch& light) {
+  for (int i = 0; i < rays.count; i += widest)
+    store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, light);
+  bool going_on = true;
+  while (going_on) {
+    find_closest_hits(scene.geometry, rays, hits);
+    going_on = false;
+    for (int i = 0; i < rays.count; ++i) {
+      if (hits.primitive[i] >= 0 && pass_surface(scene.shading, hits, i, light)) {
+        rays.t_min[i] = hits.t[i];
+        going_on = true;
+      } else {
+        rays.t_max[i] = rays.t_min[i]; // done
+      }
+    }
+  }
+}
+
+// L = L + ((Kd * cos + Ks * sp) * I) * S for the lanes in `bits`.
+FASTRT_INLINE void add_light(const ShadingView& scene, const LightRow& light, const LightBatch& seen,
+                             std::uint32_t bits, int i, SurfaceBatch& s) {
+  const PathV to_light = load3<PathF>(seen.to_light_x + i, seen.to_light_y + i, seen.to_light_z + i);
+  const PathV normal = load_shading(s, i), viewer = load_viewer(s, i);
+  const PathF cosine = PathF::load_aligned(seen.cosine + i);
+  const PathF zero(0.0F);
+  PathV reflected = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
+  for_each_material(
+      scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t) {
+        PathV sum = broadcast3<PathF>(row.diffuse) * cosine;
+        PathF sp = zero;
+        if (row.has_specular != 0) {
+          const PathF x = row.blinn != 0 ? dot(normal, normalize(to_light + viewer))
+                                         : dot(viewer, normal * (PathF(2.0F) * cosine) - to_light);
+          sp = simd::select(x > zero, shared_pow<BatchOps<widest>>(x, PathF(row.shininess)), zero);
+        }
+        sum = sum + broadcast3<PathF>(row.specular) * sp;
+        reflected = select(mask, sum, reflected);
+      });
+  const PathV visible = load3<PathF>(seen.visible_r + i, seen.visible_g + i, seen.visible_b + i);
+  const PathV added = (reflected * broadcast3<PathF>(light.intensity)) * visible;
+  const PathV local = load3<PathF>(s.local_r + i, s.local_g + i, s.local_b + i);
+  const PathV lit = select(from_bits<widest>(bits), local + added, local);
+  store3(lit, s.local_r + i, s.local_g + i, s.local_b + i);
+}
+
+// Gathers what every light gives to the surfaces of the batch. Returns the number of shadow rays.
+static std::uint64_t gather_light(const SceneView& scene, const PathBatch& rays,
+                                  TileScratch& scratch) noexcept {
+  SurfaceBatch& s = scratch.surface;
+  LightBatch& seen = scratch.light;
+  std::uint64_t shadow_rays = 0;
+  for (std::uint32_t k = 0; k < scene.shading.light_count; ++k) {
+    const LightRow& light = scene.shading.lights[k];
+    std::uint32_t lit[batch_size / widest];
+    int lit_count = 0;
+    for (int i = 0; i < rays.count; i += widest) {
+      std::uint32_t& bits = lit[i / widest];
+      bits = s.shaded[i / widest];
+      if (bits != 0) bits = face_light(light, s, bits, i, seen);
+      make_shadow_rays(light, s, bits, i, scratch.shadow);
+      lit_count += __builtin_popcount(bits);
+    }
+    if (lit_count == 0) continue;
+    if (light.casts_shadows != 0) {
+      shadow_rays += static_cast<std::uint64_t>(lit_count);
+      scratch.shadow.count = (rays.count + widest - 1) / widest * widest;
+      scratch.shadow.shape = light.directional != 0 ? BatchShape::parallel : BatchShape::common_origin;
+      if (scene.shading.has_transmission != 0)
+        trace_coloured_shadows(scene, scratch.shadow, scratch.shadow_hits, seen);
+      else
+        trace_opaque_shadows(scene.geometry, scratch.shadow, scratch.shadow_hits, seen);
+    } else {
+      for (int i = 0; i < rays.count; i += widest)
+        store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, seen);
+    }
+    for (int i = 0; i < rays.count; i += widest)
+      if (lit[i / widest] != 0) add_light(scene.shading, light, seen, lit[i / widest], i, s);
+  }
+  return shadow_rays;
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/trace/tracer_parts.hpp"
+
+#include <cmath>
+
+namespace fastrt {
+namespace {
+
+void copy(const Vec3& from, float (&to)[3]) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
+bool any_not_zero(const Vec3& v) { return v.x != 0.0F || v.y != 0.0F || v.z != 0.0F; }
+bool any_positive(const Vec3& v) { return v.x > 0.0F || v.y > 0.0F || v.z > 0.0F; }
+
+MaterialRow row_of(const Material& material) {
+  MaterialRow row{};
+  const Vec3 transmit = (1.0F - material.opacity) * material.transmission;
+  copy(material.ambient, row.ambient);
+  copy(material.diffuse, row.diffuse);
+  copy(material.specular, row.specular);
+  copy(material.emission, row.emission);
+  copy(material.mirror, row.mirror);
+  copy(transmit, row.transmit);
+  copy(material.absorption, row.absorption);
+  row.shininess = material.shininess;
+  row.opacity = material.opacity;
+  row.ior = material.ior;
+  row.blinn = material.specular_model == SpecularModel::blinn;
+  row.fresnel = static_cast<std::uint32_t>(material.fresnel);
+  row.thin = material.thin;
+  row.unlit = material.unlit;
+  row.has_specular = any_not_zero(material.specular);
+  row.has_mirror = any_not_zero(material.mirror) || material.fresnel == Fresnel::schlick;
+  row.has_transmit = any_positive(transmit);
+  row.has_absorption = any_not_zero(material.absorption);
+  if (row.has_transmit == 0) row.transmit[0] = row.transmit[1] = row.transmit[2] = 0.0F;
+  return row;
+}
+
+} // namespace
+
+std::vector<MaterialRow> material_rows(const Scene& scene) {
+  std::vector<MaterialRow> rows;
+  rows.reserve(scene.materials().size());
+  for (const Material& material : scene.materials()) rows.push_back(row_of(material));
+  return rows;
+}
+
+std::vector<LightRow> light_rows(const Scene& scene) {
+  std::vector<LightRow> rows;
+  rows.reserve(scene.lights().size());
+  for (const Light& light : scene.lights()) {
+    LightRow row{};
+    copy(light.position, row.position);
+    copy(light.intensity, row.intensity);
+    row.directional = light.kind == LightKind::directional;
+    if (row.directional != 0) copy(glm::normalize(-light.direction), row.to_light);
+    row.largest_coordinate = std::fmax(std::fabs(light.position.x),
+                                       std::fmax(std::fabs(light.position.y), std::fabs(light.position.z)));
+    row.casts_shadows = light.casts_shadows;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+} // namespace fastrt

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as the kernels see it: plain pointers and plain rows, no containers. Made once per tracer; it
+// owns nothing.
+#pragma once
+
+#include "src/accel/wide_node.hpp"
+
+#include <cstdint>
+
+namespace fastrt {
+
+// Four triangles, their vertices as columns: x of vertex v of triangle i is x[v][i]. Rows that are not used
+// hold NaN, which no comparison lets through, and the id -1.
+struct alignas(32) TriangleBlock {
+  float x[3][block_size], y[3][block_size], z[3][block_size];
+  std::int32_t primitive[block_size];
+};
+
+struct alignas(32) SphereBlock {
+  float x[block_size], y[block_size], z[block_size], radius[block_size];
+  std::int32_t primitive[block_size];
+};
+
+// Group numbers of the tree's leaves.
+inline constexpr std::uint32_t triangle_group = 0;
+inline constexpr std::uint32_t sphere_group = 1;
+
+// What a ray must know to meet the scene's primitives.
+struct GeometryView {
+  const WideNode* nodes;
+  const TriangleBlock* triangles;
+  const SphereBlock* spheres;
+  std::uint32_t root;       // a child reference; no_child for an empty scene
+  float largest_coordinate; // of any box in the tree
+};
+
+// A material as the shading reads it; the names are those of docs/numerics.md.
+struct MaterialRow {
+  float ambient[3], diffuse[3], specular[3], emission[3];
+  float mirror[3], transmit[3], absorption[3];
+  float shininess, opacity, ior;
+  std::uint32_t blinn, fresnel, thin, unlit;
+  std::uint32_t has_specular, has_mirror, has_transmit, has_absorption;
+};
+
+struct LightRow {
+  float position[3]; // point lights
+  float to_light[3]; // directional lights: normalised
+  float intensity[3];
+  float largest_coordinate; // of the position
+  std::uint32_t directional;
+  std::uint32_t casts_shadows;
+};
+
+// What shading needs beyond the geometry. Columns as in TriangleColumns and SphereColumns; the normal columns
+// are null when no triangle has normals.
+struct ShadingView {
+  const float *position_x, *position_y, *position_z;
+  const float *normal_x, *normal_y, *normal_z;
+  const std::uint32_t *v0, *v1, *v2;
+  const std::uint32_t *n0, *n1, *n2;
+  const float *sphere_x, *sphere_y, *sphere_z, *sphere_radius;
+  const std::uint32_t *triangle_material, *sphere_material;
+  const MaterialRow* materials;
+  const LightRow* lights;
+  std::uint32_t triangle_count, sphere_count, light_count;
+  std::uint32_t has_transmission; // some material lets light through
+  std::uint32_t has_absorption;
+  float ambient[3], background[3];
+};
+
+struct SceneView {
+  GeometryView geometry;
+  ShadingView shading;
+};
+
+} // namespace fastrt

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// From hits to surfaces: point, normals turned to the viewer, size of the numbers (docs/numerics.md, "The
+// surface at a hit").
+#pragma once
+
+#include "src/kernels/triangle.hpp"
+#include "src/trace/tile_job.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+using PathF = Floats<widest>;
+using PathI = Ints<widest>;
+using PathM = Mask<widest>;
+using PathV = V3<PathF>;
+
+// One surface per lane.
+struct Surface {
+  PathV point, geometric, shading;
+  PathF magnitude;
+};
+
+// The corners of a triangle per lane, gathered from the scene's columns.
+struct Corners {
+  alignas(64) float x[3][widest], y[3][widest], z[3][widest];
+};
+
+FASTRT_INLINE PathV corner(const Corners& c, int v) {
+  return {PathF::load_aligned(c.x[v]), PathF::load_aligned(c.y[v]), PathF::load_aligned(c.z[v])};
+}
+
+FASTRT_INLINE void gather_corners(const ShadingView& scene, const std::int32_t* primitives,
+                                  std::uint32_t bits, Corners& c) {
+  const std::uint32_t* const columns[3] = {scene.v0, scene.v1, scene.v2};
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    for (int v = 0; v < 3; ++v) {
+      const std::uint32_t index = columns[v][primitives[lane]];
+      c.x[v][lane] = scene.position_x[index];
+      c.y[v][lane] = scene.position_y[index];
+      c.z[v][lane] = scene.position_z[index];
+    }
+  }
+}
+
+// Returns the lanes whose three corners all have normals.
+FASTRT_INLINE std::uint32_t gather_normals(const ShadingView& scene, const std::int32_t* primitives,
+                                           std::uint32_t bits, Corners& c) {
+  const std::uint32_t* const columns[3] = {scene.n0, scene.n1, scene.n2};
+  std::uint32_t complete = bits;
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    for (int v = 0; v < 3; ++v) {
+      const std::uint32_t index = columns[v][primitives[lane]];
+      if (index == 0xFFFFFFFFU) {
+        complete &= ~(1U << lane);
+        break;
+      }
+      c.x[v][lane] = scene.normal_x[index];
+      c.y[v][lane] = scene.normal_y[index];
+      c.z[v][lane] = scene.normal_z[index];
+    }
+  }
+  return complete;
+}
+
+FASTRT_INLINE Surface triangle_surface(const ShadingView& scene, const std::int32_t* primitives,
+                                       std::uint32_t bits, const PathV& origin, const PathV& dir) {
+  Corners corners{};
+  gather_corners(scene, primitives, bits, corners);
+  const PathV a = corner(corners, 0), b = corner(corners, 1), c = corner(corners, 2);
+  const auto [u, v] = triangle_weights(set_up_triangle(a - origin, b - origin, c - origin), dir);
+  const PathF w = (PathF(1.0F) - u) - v;
+  Surface s;
+  s.point = (a * w + b * u) + c * v;
+  const PathV normal = cross(b - a, c - a);
+  s.geometric = normalize(normal / largest(normal));
+  s.magnitude = max(max(largest(a), largest(b)), largest(c));
+  s.shading = s.geometric;
+  if (scene.normal_x == nullptr) return s;
+  const std::uint32_t smooth = gather_normals(scene, primitives, bits, corners);
+  if (smooth == 0) return s;
+  const PathV sum = (corner(corners, 0) * w + corner(corners, 1) * u) + corner(corners, 2) * v;
+  const PathF length2 = dot(sum, sum);
+  const PathM usable =
+      from_bits<widest>(smooth) & (length2 > PathF(0.0F)) & (length2 < PathF(__builtin_inff()));
+  s.shading = select(usable, sum * (PathF(1.0F) / sqrt(length2)), s.geometric);
+  return s;
+}
+
+FASTRT_INLINE Surface sphere_surface(const ShadingView& scene, const std::int32_t* primitives,
+                                     std::uint32_t bits, const PathV& origin, const PathV& dir,
+                                     const PathF& t) {
+  Corners c{};
+  alignas(64) float radius[widest] = {};
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    const std::uint32_t sphere = static_cast<std::uint32_t>(primitives[lane]) - scene.triangle_count;
+    c.x[0][lane] = scene.sphere_x[sphere];
+    c.y[0][lane] = scene.sphere_y[sphere];
+    c.z[0][lane] = scene.sphere_z[sphere];
+    radius[lane] = scene.sphere_radius[sphere];
+  }
+  const PathV center = corner(c, 0);
+  const PathF r = PathF::load_aligned(radius);
+  Surface s;
+  s.geometric = normalize((origin - center) + dir * t);
+  s.point = center + s.geometric * r;
+  s.shading = s.geometric;
+  s.magnitude = largest(center) + r;
+  return s;
+}
+
+FASTRT_INLINE Surface select(const PathM& mask, const Surface& yes, const Surface& no) {
+  return {select(mask, yes.point, no.point), select(mask, yes.geometric, no.geometric),
+          select(mask, yes.shading, no.shading), simd::select(mask, yes.magnitude, no.magnitude)};
+}
+
+// Both normals to the viewer's side, whichever way the surface is wound.
+FASTRT_INLINE void face_viewer(Surface& s, const PathV& dir) {
+  const PathM away = dot(s.geometric, dir) > PathF(0.0F);
+  s.geometric = select(away, negate(s.geometric), s.geometric);
+  const PathM opposed = dot(s.shading, s.geometric) < PathF(0.0F);
+  s.shading = select(opposed, negate(s.shading), s.shading);
+}
+
+FASTRT_INLINE void store_surface(const Surface& s, const PathV& dir, int i, SurfaceBatch& batch) {
+  const PathF inverse_length = PathF(1.0F) / sqrt(dot(dir, dir));
+  store3(s.point, batch.point_x + i, batch.point_y + i, batch.point_z + i);
+  store3(s.geometric, batch.geometric_x + i, batch.geometric_y + i, batch.geometric_z + i);
+  store3(s.shading, batch.shading_x + i, batch.shading_y + i, batch.shading_z + i);
+  store3(negate(dir * inverse_length), batch.viewer_x + i, batch.viewer_y + i, batch.viewer_z + i);
+  s.magnitude.store_aligned(batch.magnitude + i);
+}
+
+// The surfaces that rays i .. i + widest - 1 hit; rows of rays that missed hold no meaning.
+FASTRT_INLINE void find_surfaces(const ShadingView& scene, const PathBatch& rays, const HitBatch& hits, int i,
+                                 SurfaceBatch& batch) {
+  const std::int32_t* primitives = hits.primitive + i;
+  std::uint32_t triangles = 0, spheres = 0;
+  for (int lane = 0; lane < widest && i + lane < rays.count; ++lane) {
+    const std::int32_t id = primitives[lane];
+    batch.planar[i + lane] = -1;
+    if (id < 0) continue;
+    const auto index = static_cast<std::uint32_t>(id);
+    if (index < scene.triangle_count) {
+      triangles |= 1U << lane;
+      batch.planar[i + lane] = id;
+      batch.material[i + lane] = static_cast<std::int32_t>(scene.triangle_material[index]);
+    } else {
+      spheres |= 1U << lane;
+      batch.material[i + lane] =
+          static_cast<std::int32_t>(scene.sphere_material[index - scene.triangle_count]);
+    }
+  }
+  const PathV origin = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+  const PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+  Surface s;
+  if (triangles != 0) s = triangle_surface(scene, primitives, triangles, origin, dir);
+  if (spheres != 0) {
+    const Surface on_sphere =
+        sphere_surface(scene, primitives, spheres, origin, dir, PathF::load_aligned(hits.t + i));
+    s = triangles != 0 ? select(from_bits<widest>(spheres), on_sphere, s) : on_sphere;
+  }
+  face_viewer(s, dir);
+  store_surface(s, dir, i, batch);
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the frame driver hands to the kernels for one tile, and the memory that a thread works in. Plain data.
+#pragma once
+
+#include "src/trace/ray_batch.hpp"
+#include "src/trace/scene_view.hpp"
+
+#include <cstdint>
+
+namespace fastrt {
+
+inline constexpr int max_media = 4; // media that a ray can be in at once
+inline constexpr int max_path_depth = 64;
+
+// Rays on the way through the scene, all of one depth. Each belongs to a pixel of the tile.
+struct alignas(64) PathBatch : RayBatch {
+  float weight_r[batch_size], weight_g[batch_size], weight_b[batch_size];
+  std::int32_t media[max_media]
+                    [batch_size]; // materials, innermost first; -1: none. Kept when the scene refracts.
+  std::int32_t pixel[batch_size]; // place in the tile's order
+  int depth;
+};
+
+// The surfaces that a batch of rays hit, row i for ray i. The names are those of docs/numerics.md.
+struct alignas(64) SurfaceBatch {
+  float point_x[batch_size], point_y[batch_size], point_z[batch_size];
+  float geometric_x[batch_size], geometric_y[batch_size], geometric_z[batch_size]; // ng
+  float shading_x[batch_size], shading_y[batch_size], shading_z[batch_size];       // ns
+  float viewer_x[batch_size], viewer_y[batch_size], viewer_z[batch_size];          // c
+  float magnitude[batch_size];                                                     // M
+  float local_r[batch_size], local_g[batch_size], local_b[batch_size];             // L
+  std::int32_t material[batch_size];
+  std::int32_t planar[batch_size];      // the primitive, where a secondary ray must exclude it; else -1
+  std::uint32_t shaded[batch_size / 4]; // per packet: bits of the rays whose surfaces answer light
+};
+
+// A light as the surfaces of a batch see it.
+struct alignas(64) LightBatch {
+  float to_light_x[batch_size], to_light_y[batch_size], to_light_z[batch_size];
+  float cosine[batch_size];
+  float visible_r[batch_size], visible_g[batch_size], visible_b[batch_size]; // S
+};
+
+struct TileScratch {
+  HitBatch hits, shadow_hits;
+  SurfaceBatch surface;
+  LightBatch light;
+  RayBatch shadow;
+  float radiance_r[batch_size], radiance_g[batch_size], radiance_b[batch_size]; // of one sample
+  float sum_r[batch_size], sum_g[batch_size], sum_b[batch_size];
+  std::int32_t first_primitive[batch_size];
+  // The explicit stack: batches waiting, the next on top, and those not in use.
+  PathBatch* waiting[max_path_depth + 4];
+  PathBatch* unused[max_path_depth + 4];
+  int waiting_count, unused_count;
+};
+
+struct TileJob {
+  const SceneView* scene;
+  float eye[3], corner[3], du[3], dv[3]; // CameraFrame
+  int x, y;                              // the tile's upper left pixel
+  int width, height;                     // of the frame
+  int samples;
+  std::uint32_t seed;
+  bool tent;
+  int max_depth;
+  float min_contribution;
+  float* rgb;              // of the frame
+  std::int32_t* primitive; // of the frame
+};
+
+struct TileRayCounts {
+  std::uint64_t primary, shadow, reflected, refracted;
+};
+
+} // namespace fastrt

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/trace/tracer_parts.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace fastrt {
+namespace {
+
+const KernelTable* table_of(Isa isa) noexcept {
+  switch (isa) {
+  case Isa::sse42:
+    return &sse42::kernel_table();
+  case Isa::avx2:
+    return &avx2::kernel_table();
+  case Isa::avx512:
+    return &avx512::kernel_table();
+  case Isa::scalar:
+    break;
+  }
+  return nullptr;
+}
+
+float largest_magnitude(const Aabb& box) {
+  if (box.empty()) return 0.0F;
+  const Vec3 v = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+  return std::fmax(v.x, std::fmax(v.y, v.z));
+}
+
+void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree) {
+  GeometryView& view = parts.view.geometry;
+  view.nodes = parts.nodes.data();
+  view.triangles = parts.triangle_blocks.data();
+  view.spheres = parts.sphere_blocks.data();
+  view.root = tree.root;
+  view.largest_coordinate = largest_magnitude(tree.bounds);
+}
+
+void fill_columns(const Scene& scene, ShadingView& view) {
+  const SceneDesc& desc = scene.desc();
+  view.position_x = desc.positions.x.data();
+  view.position_y = desc.positions.y.data();
+  view.position_z = desc.positions.z.data();
+  view.v0 = desc.triangles.v0.data();
+  view.v1 = desc.triangles.v1.data();
+  view.v2 = desc.triangles.v2.data();
+  if (!desc.triangles.n0.empty()) {
+    view.normal_x = desc.normals.x.data();
+    view.normal_y = desc.normals.y.data();
+    view.normal_z = desc.normals.z.data();
+    view.n0 = desc.triangles.n0.data();
+    view.n1 = desc.triangles.n1.data();
+    view.n2 = desc.triangles.n2.data();
+  }
+  view.sphere_x = desc.spheres.x.data();
+  view.sphere_y = desc.spheres.y.data();
+  view.sphere_z = desc.spheres.z.data();
+  view.sphere_radius = desc.spheres.radius.data();
+  view.triangle_material = desc.triangles.material.data();
+  view.sphere_material = desc.spheres.material.data();
+  view.triangle_count = scene.triangle_count();
+  view.sphere_count = scene.sphere_count();
+}
+
+void fill_shading_view(Tracer::Parts& parts) {
+  ShadingView& view = parts.view.shading;
+  const SceneDesc& desc = parts.scene.desc();
+  fill_columns(parts.scene, view);
+  view.materials = parts.materials.data();
+  view.lights = parts.lights.data();
+  view.light_count = static_cast<std::uint32_t>(parts.lights.size());
+  view.has_transmission = parts.scene.has_transmission();
+  for (const MaterialRow& row : parts.materials) view.has_absorption |= row.has_absorption;
+  for (int c = 0; c < 3; ++c) {
+    view.ambient[c] = desc.ambient[c];
+    view.background[c] = desc.background[c];
+  }
+}
+
+void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
+  BvhStats& stats = parts.stats;
+  stats.sah_cost = sah_cost(tree);
+  stats.node_count = tree.nodes.size();
+  stats.leaf_count = leaf_count(tree);
+  stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size();
+  stats.depth = tree_depth(tree);
+  stats.bytes = parts.nodes.size() * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
+                parts.sphere_blocks.size() * sizeof(SphereBlock);
+  const std::uint32_t primitives = parts.scene.primitive_count();
+  stats.bytes_per_primitive = primitives == 0 ? 0.0 : static_cast<double>(stats.bytes) / primitives;
+}
+
+// Boxes -> binary tree -> wide tree -> blocks. The tree's own parts are let go where the next has been made.
+WideTree build(Tracer::Parts& parts, int threads) {
+  BuildSettings settings;
+  settings.threads = threads;
+  WideTree tree;
+  {
+    Column<PrimitiveBox> boxes = primitive_boxes(parts.scene);
+    const BinaryTree binary = build_binary_tree(boxes, settings);
+    tree = collapse(binary, settings);
+  }
+  parts.triangle_blocks = triangle_blocks(parts.scene, tree.slots[triangle_group], threads);
+  parts.sphere_blocks = sphere_blocks(parts.scene, tree.slots[sphere_group]);
+  return tree;
+}
+
+} // namespace
+
+Tracer::Tracer(Scene scene, const TracerSettings& settings)
+    : parts_(std::make_unique<Parts>(std::move(scene))) {
+  Parts& parts = *parts_;
+  parts.isa = settings.isa;
+  if (!isa_available(parts.isa)) parts.isa = select_isa(isa_name(settings.isa)); // throws
+  parts.kernels = table_of(parts.isa);
+  const auto start = std::chrono::steady_clock::now();
+  WideTree tree = build(parts, settings.threads);
+  parts.stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  fill_stats(parts, tree);
+  parts.nodes = std::move(tree.nodes);
+  parts.materials = material_rows(parts.scene);
+  parts.lights = light_rows(parts.scene);
+  fill_geometry_view(parts, tree);
+  fill_shading_view(parts);
+  if (parts.kernels == nullptr) parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings.threads);
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+const Scene& Tracer::scene() const noexcept { return parts_->scene; }
+Isa Tracer::isa() const noexcept { return parts_->isa; }
+const BvhStats& Tracer::bvh_stats() const noexcept { return parts_->stats; }
+
+} // namespace fastrt

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a Tracer is made of.
+#pragma once
+
+#include "src/accel/tree.hpp"
+#include "src/kernels/kernel_table.hpp"
+#include "src/trace/scalar_bvh.hpp"
+#include "src/trace/scene_view.hpp"
+
+#include <fastrt/tracer.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace fastrt {
+
+struct Tracer::Parts {
+  Scene scene;
+  Isa isa = Isa::scalar;
+  Column<WideNode> nodes;
+  Column<TriangleBlock> triangle_blocks;
+  Column<SphereBlock> sphere_blocks;
+  std::vector<MaterialRow> materials;
+  std::vector<LightRow> lights;
+  SceneView view{};
+  BvhStats stats;
+  const KernelTable* kernels = nullptr;  // null for Isa::scalar
+  std::unique_ptr<ScalarBvh> scalar_bvh; // of Isa::scalar alone
+
+  explicit Parts(Scene s) : scene(std::move(s)) {}
+};
+
+// The rows that shading reads, from the scene's materials and lights.
+std::vector<MaterialRow> material_rows(const Scene& scene);
+std::vector<LightRow> light_rows(const Scene& scene);
+
+// The leaf blocks in the tree's order. slots: primitive ids, block_size a block, -1 where a block is not
+// full.
+Column<TriangleBlock> triangle_blocks(const Scene& scene, const Column<std::int32_t>& slots, int threads);
+Column<SphereBlock> sphere_blocks(const Scene& scene, const Column<std::int32_t>& slots);
+
+} // namespace fastrt
