@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -37,6 +38,20 @@ std::string version_text() {
   return text + "\n";
 }
 
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+std::string help_text(const CLI::App& app) {
+  std::string text = app.help();
+  replace_all(text, "\n\n\n", "\n\n");
+  replace_all(text, "--stats{text} [=text|json]  ", "--stats[=text|json]         ");
+  replace_all(text, "\nUsage:", "\n\nUsage:");
+  return text;
+}
+
 StatsFormat stats_format(const std::string& text) {
   if (text.empty()) return StatsFormat::none;
   if (text == "text") return StatsFormat::text;
@@ -57,6 +72,7 @@ public:
     const auto call = [long_name, read](const std::string& text) { read(long_name, text); };
     app_.add_option_function<std::string>(names, call, help)
         ->option_text(placeholder)
+        ->type_name("value")
         ->take_last()
         ->group(group_);
   }
@@ -208,8 +224,7 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("scene", options.scene, "The scene: an .obj file; after '--' its name may begin with '-'")
       ->option_text("FILE")
       ->required();
-  app.set_help_flag("-h,--help", "This text")->group("Report");
-  app.set_version_flag("--version", version_text, "Version and instruction sets")->group("Report");
+  app.set_help_flag();
   OptionAdder add(app);
   add_image_options(add, options);
   add_sampling_options(add, options);
@@ -219,11 +234,13 @@ Options parse_options(int argc, const char* const* argv) {
   add_input_options(add, options);
   std::string stats;
   add_report_options(app, add, options, stats);
+  app.set_help_flag("-h,--help", "This text")->group("Help");
+  app.set_version_flag("--version", version_text, "Version and instruction sets")->group("Help");
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    options.answer = app.help();
+    options.answer = help_text(app);
   } catch (const CLI::CallForVersion&) {
     options.answer = version_text();
   } catch (const CLI::ParseError& error) {

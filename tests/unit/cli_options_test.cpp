@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/cli/options.hpp"
+
+#include <fastrt/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace fastrt::cli {
+namespace {
+
+Options parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "fastrt");
+  return parse_options(static_cast<int>(words.size()), words.data());
+}
+
+TEST(CliOptions, DefaultsOfASceneAlone) {
+  const Options options = parse({"a.obj"});
+  EXPECT_EQ(options.scene, "a.obj");
+  EXPECT_EQ(options.output, "");
+  EXPECT_EQ(options.width, 1024);
+  EXPECT_EQ(options.height, 768);
+  EXPECT_EQ(options.samples_per_pixel, 1);
+  EXPECT_EQ(options.stats, StatsFormat::none);
+  EXPECT_FALSE(options.eye.has_value());
+  EXPECT_FALSE(options.isa.has_value());
+  EXPECT_FALSE(options.answer.has_value());
+  EXPECT_TRUE(options.show_progress);
+}
+
+TEST(CliOptions, EveryValue) {
+  const Options options = parse({"-o",
+                                 "b.png",
+                                 "-r",
+                                 "64x32",
+                                 "-s",
+                                 "4",
+                                 "--filter",
+                                 "box",
+                                 "--seed=4294967295",
+                                 "--max-depth",
+                                 "0",
+                                 "--min-contribution",
+                                 "0.25",
+                                 "--eye",
+                                 "-1,2,3",
+                                 "--look-at=0,0,-1",
+                                 "--up",
+                                 "0,0,1",
+                                 "--fov",
+                                 "60",
+                                 "--ambient",
+                                 "0.1,0.2,0.3",
+                                 "--background",
+                                 "1,1,1",
+                                 "-t",
+                                 "3",
+                                 "--isa",
+                                 "scalar",
+                                 "--max-image-mb",
+                                 "9",
+                                 "a.obj"});
+  EXPECT_EQ(options.output, "b.png");
+  EXPECT_EQ(options.width, 64);
+  EXPECT_EQ(options.height, 32);
+  EXPECT_EQ(options.samples_per_pixel, 4);
+  EXPECT_EQ(options.filter, PixelFilter::box);
+  EXPECT_EQ(options.seed, 4294967295U);
+  EXPECT_EQ(options.max_depth, 0);
+  EXPECT_EQ(options.min_contribution, 0.25F);
+  EXPECT_EQ(options.eye, Vec3(-1, 2, 3));
+  EXPECT_EQ(options.look_at, Vec3(0, 0, -1));
+  EXPECT_EQ(options.up, Vec3(0, 0, 1));
+  EXPECT_EQ(options.fov_degrees, 60.0F);
+  EXPECT_EQ(options.ambient, Vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(options.background, Vec3(1));
+  EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.isa, "scalar");
+  EXPECT_EQ(options.max_image_mb, 9);
+  EXPECT_EQ(options.scene, "a.obj");
+}
+
+TEST(CliOptions, EveryFlag) {
+  const Options options = parse(
+      {"--verify", "--strict", "--allow-external-files", "--tr-is-opacity", "-q", "--no-progress", "a.obj"});
+  EXPECT_TRUE(options.verify);
+  EXPECT_TRUE(options.strict);
+  EXPECT_TRUE(options.allow_external_files);
+  EXPECT_TRUE(options.tr_is_opacity);
+  EXPECT_TRUE(options.quiet);
+  EXPECT_FALSE(options.show_progress);
+}
+
+TEST(CliOptions, StatsTakesItsValueOnlyAfterEquals) {
+  EXPECT_EQ(parse({"--stats", "a.obj"}).stats, StatsFormat::text);
+  EXPECT_EQ(parse({"--stats=text", "a.obj"}).stats, StatsFormat::text);
+  EXPECT_EQ(parse({"a.obj", "--stats=json"}).stats, StatsFormat::json);
+  EXPECT_THROW(parse({"--stats=xml", "a.obj"}), UsageError);
+}
+
+TEST(CliOptions, LightsAddUpAndDoNotSwallowTheScene) {
+  const Options options = parse({"--light", "point:1,2,3", "--light", "dir:0,-1,0", "a.obj"});
+  ASSERT_EQ(options.lights.size(), 2U);
+  EXPECT_EQ(options.lights[0].kind, LightKind::point);
+  EXPECT_EQ(options.lights[1].kind, LightKind::directional);
+  EXPECT_EQ(options.scene, "a.obj");
+}
+
+TEST(CliOptions, TheLastOfSeveralWins) {
+  EXPECT_EQ(parse({"-s", "2", "a.obj", "--spp", "3"}).samples_per_pixel, 3);
+}
+
+TEST(CliOptions, SceneNamesWithADash) {
+  EXPECT_EQ(parse({"--", "-x.obj"}).scene, "-x.obj");
+  EXPECT_EQ(parse({"-s", "2", "--", "--spp"}).scene, "--spp");
+}
+
+TEST(CliOptions, AbsurdDepthIsCutWithAWarning) {
+  const Options options = parse({"--max-depth", "1000000000", "a.obj"});
+  EXPECT_EQ(options.max_depth, 64);
+  EXPECT_EQ(options.warnings.size(), 1U);
+  EXPECT_TRUE(parse({"--max-depth", "64", "a.obj"}).warnings.empty());
+}
+
+TEST(CliOptions, UsageErrors) {
+  const std::vector<std::vector<const char*>> bad = {
+      {},
+      {"a.obj", "b.obj"},
+      {"a.obj", "--bogus"},
+      {"a.obj", "-z"},
+      {"a.obj", "--spp"},
+      {"a.obj", "--spp", "0"},
+      {"a.obj", "--spp", "-1"},
+      {"a.obj", "--spp", "1000000000"},
+      {"a.obj", "--spp", "1.5"},
+      {"a.obj", "-r", "0x9"},
+      {"a.obj", "-o", ""},
+      {"a.obj", "-t", "0"},
+      {"a.obj", "--filter", "cone"},
+      {"a.obj", "--seed", "-1"},
+      {"a.obj", "--seed", "4294967296"},
+      {"a.obj", "--max-depth", "-1"},
+      {"a.obj", "--min-contribution", "1.5"},
+      {"a.obj", "--min-contribution", "nan"},
+      {"a.obj", "--fov", "0"},
+      {"a.obj", "--fov", "180"},
+      {"a.obj", "--fov", "nan"},
+      {"a.obj", "--light", "lamp"},
+      {"a.obj", "--max-image-mb", "0"},
+      {"a.obj", "--verify=perhaps"},
+  };
+  for (const auto& words : bad) {
+    EXPECT_THROW(parse(words), UsageError) << (words.empty() ? "" : words.back());
+  }
+}
+
+TEST(CliOptions, HelpAndVersionNeedNoScene) {
+  const Options help = parse({"--help"});
+  ASSERT_TRUE(help.answer.has_value());
+  for (const char* part :
+       {"Image:", "Sampling:", "Camera", "Engine:", "Examples:", "--spp", "--light", "Exit codes"}) {
+    EXPECT_NE(help.answer->find(part), std::string::npos) << part;
+  }
+  const Options version = parse({"--version"});
+  ASSERT_TRUE(version.answer.has_value());
+  EXPECT_EQ(version.answer->rfind("fastrt 0.", 0), 0U);
+  EXPECT_NE(version.answer->find("scalar"), std::string::npos);
+}
+
+} // namespace
+} // namespace fastrt::cli
