@@ -1,168 +1,213 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/accel/tree.hpp"
+#include "src/accel/parallel.hpp"
+#include "src/accel/subtree.hpp"
+
+#include <fastrt/error.hpp>
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace fastrt {
 namespace {
 
-constexpr int bin_count = 16;
-constexpr std::size_t max_leaf_size = std::size_t{block_size} * max_leaf_blocks;
-constexpr float node_cost = 0.5F; // of visiting a binary node, in block tests
+constexpr std::size_t serial_range = std::size_t{1} << 14U; // ranges up to this size are one task
+constexpr std::size_t min_chunk = std::size_t{1} << 12U;
+constexpr std::size_t max_chunks = 64;
 
-struct Bin {
-  Aabb bounds;
-  std::size_t count = 0;
-};
-
-struct Split {
-  float cost = infinity;
-  int axis = -1;
-  int position = 0; // bins left of the plane
-};
-
-struct Task {
+// Neighbouring primitives of a range that one task moves. The cuts depend on the primitives alone, not on
+// threads; so does everything that follows.
+struct Chunk {
   std::size_t begin, end;
-  std::uint32_t node;
-  int level;
+  Bins bins;
 };
 
-Vec3 lower(const PrimitiveBox& box) { return {box.lower[0], box.lower[1], box.lower[2]}; }
-Vec3 upper(const PrimitiveBox& box) { return {box.upper[0], box.upper[1], box.upper[2]}; }
-Vec3 centroid(const PrimitiveBox& box) { return 0.5F * lower(box) + 0.5F * upper(box); }
-
-float half_area(const Aabb& box) {
-  const Vec3 d = box.extent();
-  return d.x * d.y + d.y * d.z + d.z * d.x;
-}
-
-float blocks(std::size_t count) { return static_cast<float>((count + block_size - 1) / block_size); }
-
-int bin_of(float centroid, float first, float scale) {
-  const float bin = (centroid - first) * scale;
-  return bin >= 0 && bin < bin_count ? static_cast<int>(bin) : bin >= bin_count ? bin_count - 1 : 0;
-}
+// A node above the serial ranges, or the root of one of these.
+struct TopNode {
+  BuildRange range;
+  std::vector<Chunk> chunks;
+  std::unique_ptr<TopNode> children[2];
+  GroupedNode node;
+  NodeList below;          // of a serial range
+  std::uint32_t index = 0; // of the node in the whole tree
+  std::uint32_t first_below = 0;
+};
 
 class Builder {
 public:
-  explicit Builder(Column<PrimitiveBox>& boxes) : boxes_(boxes) {}
+  Builder(Column<PrimitiveBox>& boxes, int threads) : boxes_(boxes), other_(boxes.size()), threads_(threads) {
+    tree_.order.resize(boxes.size());
+    context_.order = tree_.order.data();
+    context_.buffers[0] = boxes_.data();
+    context_.buffers[1] = other_.data();
+    chunk_size_ = std::max(min_chunk, (boxes.size() + max_chunks - 1) / max_chunks);
+  }
 
   BinaryTree build() {
-    if (boxes_.empty()) return {};
-    add_node();
-    Column<Task> tasks{Task{0, boxes_.size(), 0, 1}};
-    while (!tasks.empty()) {
-      const Task task = tasks.back();
-      tasks.resize(tasks.size() - 1);
-      expand(task, tasks);
-    }
-    tree_.order.resize(boxes_.size());
-    for (std::size_t i = 0; i < boxes_.size(); ++i) tree_.order[i] = boxes_[i].id;
+    run_tasks(threads_, failure_, [&] { build_root(); });
+    std::uint32_t next = 1;
+    place(root_, 0, next);
+    tree_.nodes.resize(next);
+    tree_.group_of_leaf.resize(next);
+    run_tasks(threads_, failure_, [&] { copy(root_); });
     return std::move(tree_);
   }
 
 private:
-  void add_node() {
-    tree_.nodes.push_back({});
-    tree_.group_of_leaf.push_back(0);
+  void build_root() {
+    root_.range.end = boxes_.size();
+    measure_chunks(root_);
+    const LaneBox& bounds = root_.range.bounds;
+    alignas(16) float extent[4];
+    _mm_store_ps(extent, _mm_sub_ps(bounds.upper, bounds.lower));
+    const float largest = std::max(extent[0], std::max(extent[1], extent[2]));
+    const bool usable = largest >= std::numeric_limits<float>::min() && largest < infinity;
+    context_.scale = _mm_set1_ps(usable ? std::ldexp(1.0F, -std::min(std::ilogb(largest), 126)) : 1.0F);
+    const std::uint32_t group = boxes_[0].group;
+    context_.one_group = std::all_of(boxes_.begin(), boxes_.end(),
+                                     [=](const PrimitiveBox& box) { return box.group == group; });
+    build(root_);
   }
 
-  void expand(const Task& task, Column<Task>& tasks) {
-    Aabb bounds, centroids;
-    bool one_group = true;
-    for (std::size_t i = task.begin; i < task.end; ++i) {
-      bounds.extend(lower(boxes_[i]));
-      bounds.extend(upper(boxes_[i]));
-      centroids.extend(centroid(boxes_[i]));
-      one_group &= boxes_[i].group == boxes_[task.begin].group;
+  // Cuts the range into chunks and finds its exact bounds and bins.
+  void measure_chunks(TopNode& top) {
+    const std::size_t begin = top.range.begin, count = (top.range.size() + chunk_size_ - 1) / chunk_size_;
+    std::vector<BuildRange> parts(count, top.range);
+    top.chunks.assign(count, {});
+    for_each_index(count, [&](std::size_t i) {
+      parts[i].begin = top.chunks[i].begin = begin + i * chunk_size_;
+      parts[i].end = top.chunks[i].end = std::min(top.range.end, begin + (i + 1) * chunk_size_);
+      measure(context_, parts[i]);
+    });
+    top.range.bounds = top.range.centroids = LaneBox{};
+    top.range.tight = true;
+    for (const BuildRange& part : parts) {
+      top.range.bounds.extend(part.bounds);
+      top.range.centroids.extend(part.centroids);
     }
-    const std::size_t count = task.end - task.begin;
-    BinaryNode node{{bounds.lower.x, bounds.lower.y, bounds.lower.z},
-                    static_cast<std::uint32_t>(task.begin),
-                    {bounds.upper.x, bounds.upper.y, bounds.upper.z},
-                    static_cast<std::uint32_t>(count)};
-    std::size_t middle = task.begin;
-    // Halving from here on just fits into the levels that are left.
-    const bool must_halve = task.level + 1 + static_cast<int>(std::bit_width(count - 1)) > max_tree_depth;
-    const bool may_be_leaf = one_group && count <= max_leaf_size;
-    if (!(may_be_leaf && count <= block_size)) {
-      const Split split = must_halve ? Split{} : best_split(task, centroids);
-      const float area = half_area(bounds);
-      const float split_cost = node_cost * area + split.cost;
-      if (!may_be_leaf || split_cost < blocks(count) * area)
-        middle = partition(task, split, centroids, !must_halve && count <= max_leaf_size && !one_group);
+    const BinMapping mapping(top.range.centroids);
+    for_each_index(count, [&](std::size_t i) {
+      Chunk& chunk = top.chunks[i];
+      fill_bins(context_.buffers[top.range.buffer] + chunk.begin, chunk.end - chunk.begin, mapping,
+                chunk.bins);
+    });
+  }
+
+  void build(TopNode& top) {
+    Bins bins;
+    for (const Chunk& chunk : top.chunks) bins.add(chunk.bins);
+    if (top.range.size() <= serial_range) {
+      top.chunks = {};
+      top.below.reserve(top.range.size() / 2);
+      top.node = build_range(context_, top.range, bins, top.below);
+      return;
     }
-    if (middle != task.begin) {
-      node.first = static_cast<std::uint32_t>(tree_.nodes.size());
-      node.count = 0;
-      add_node();
-      add_node();
-      tasks.push_back({middle, task.end, node.first + 1, task.level + 1});
-      tasks.push_back({task.begin, middle, node.first, task.level + 1});
+    for (auto& child : top.children) child = std::make_unique<TopNode>();
+    const bool halve = must_halve(top.range.level, top.range.size());
+    BinSplit split = halve ? BinSplit{} : best_split(bins, context_.scale);
+    if (!halve && split.occupied < few_bins && !top.range.tight) {
+      measure_chunks(top);
+      bins = Bins{};
+      for (const Chunk& chunk : top.chunks) bins.add(chunk.bins);
+      split = best_split(bins, context_.scale);
+    }
+    if (split.axis >= 0) {
+      move_chunks(top, bins, split);
     } else {
-      tree_.group_of_leaf[task.node] = static_cast<std::uint8_t>(boxes_[task.begin].group);
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        top.children[side]->range = half_of(context_, top.range, side);
+        measure_chunks(*top.children[side]);
+      }
     }
-    tree_.nodes[task.node] = node;
+    top.chunks = {};
+    top.node = make_node(top.range.bounds, 0, 0, 0);
+    for (auto& child : top.children) spawn(failure_, [this, node = child.get()] { build(*node); });
   }
 
-  Split best_split(const Task& task, const Aabb& centroids) const {
-    Split best;
-    const std::size_t count = task.end - task.begin;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float scale = bin_count / (centroids.upper[axis] - centroids.lower[axis]);
-      Bin bins[bin_count];
-      for (std::size_t i = task.begin; i < task.end; ++i) {
-        Bin& bin = bins[bin_of(centroid(boxes_[i])[axis], centroids.lower[axis], scale)];
-        bin.bounds.extend(lower(boxes_[i]));
-        bin.bounds.extend(upper(boxes_[i]));
-        ++bin.count;
-      }
-      float right_area[bin_count];
-      Aabb right;
-      for (int i = bin_count - 1; i > 0; --i) {
-        right.extend(bins[i].bounds);
-        right_area[i] = right.empty() ? 0 : half_area(right);
-      }
-      Aabb left;
-      std::size_t left_count = 0;
-      for (int i = 1; i < bin_count; ++i) {
-        left.extend(bins[i - 1].bounds);
-        left_count += bins[i - 1].count;
-        if (left_count == 0 || left_count == count) continue;
-        const float cost = half_area(left) * blocks(left_count) + right_area[i] * blocks(count - left_count);
-        if (cost < best.cost) best = {cost, axis, i};
+  void move_chunks(TopNode& top, const Bins& bins, const BinSplit& split) {
+    SplitSides sides = split_sides(top.range, bins, split);
+    const std::size_t count = top.chunks.size();
+    std::vector<SplitSides> sides_of(count, sides);
+    std::vector<Chunk> moved[2];
+    for (auto& chunks : moved) chunks.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t size = top.chunks[i].end - top.chunks[i].begin;
+      const std::size_t left = left_count(top.chunks[i].bins, split);
+      for (std::size_t side = 0; side < 2; ++side) {
+        sides_of[i].next[side] = moved[side][i].begin = sides.next[side];
+        sides.next[side] = moved[side][i].end = sides.next[side] + (side == 0 ? left : size - left);
       }
     }
-    return best;
+    for_each_index(count, [&](std::size_t i) {
+      Bins* const both[2] = {&moved[0][i].bins, &moved[1][i].bins};
+      move_to_sides(context_, top.range, top.chunks[i].begin, top.chunks[i].end, split, sides_of[i], both);
+    });
+    for (std::size_t side = 0; side < 2; ++side) {
+      top.children[side]->range = sides.ranges[side];
+      top.children[side]->chunks = join(moved[side]);
+    }
   }
 
-  std::size_t partition(const Task& task, const Split& split, const Aabb& centroids, bool by_group) {
-    PrimitiveBox* begin = boxes_.data() + task.begin;
-    PrimitiveBox* end = boxes_.data() + task.end;
-    PrimitiveBox* middle = begin + (end - begin) / 2;
-    const int axis = split.axis;
-    if (axis >= 0) {
-      const float first = centroids.lower[axis];
-      const float scale = bin_count / (centroids.upper[axis] - first);
-      middle = std::partition(begin, end, [&](const PrimitiveBox& box) {
-        return bin_of(centroid(box)[axis], first, scale) < split.position;
-      });
-    } else if (by_group) {
-      const std::uint32_t group = begin->group;
-      middle = std::partition(begin, end, [&](const PrimitiveBox& box) { return box.group == group; });
+  // Puts neighbours together until they are worth a task.
+  std::vector<Chunk> join(const std::vector<Chunk>& chunks) const {
+    std::vector<Chunk> joined;
+    for (const Chunk& chunk : chunks) {
+      if (!joined.empty() && chunk.end - joined.back().begin <= chunk_size_) {
+        joined.back().end = chunk.end;
+        joined.back().bins.add(chunk.bins);
+      } else {
+        joined.push_back(chunk);
+      }
     }
-    return static_cast<std::size_t>(middle - boxes_.data());
+    return joined;
+  }
+
+  void place(TopNode& top, std::uint32_t index, std::uint32_t& next) {
+    top.index = index;
+    top.first_below = next;
+    if (top.node.node.count == 0) top.node.node.first = next;
+    if (!top.children[0]) {
+      next += static_cast<std::uint32_t>(top.below.nodes.size());
+      return;
+    }
+    next += 2;
+    place(*top.children[0], top.first_below, next);
+    place(*top.children[1], top.first_below + 1, next);
+  }
+
+  void copy(const TopNode& top) {
+    tree_.nodes[top.index] = top.node.node;
+    tree_.group_of_leaf[top.index] = top.node.group;
+    for (const auto& child : top.children)
+      if (child) spawn(failure_, [this, node = child.get()] { copy(*node); });
+    for (std::size_t i = 0; i < top.below.nodes.size(); ++i) {
+      BinaryNode node = top.below.nodes[i];
+      if (node.count == 0) node.first += top.first_below;
+      tree_.nodes[top.first_below + i] = node;
+      tree_.group_of_leaf[top.first_below + i] = top.below.groups[i];
+    }
   }
 
   Column<PrimitiveBox>& boxes_;
+  Column<PrimitiveBox> other_;
+  int threads_;
+  std::size_t chunk_size_;
+  BuildContext context_;
   BinaryTree tree_;
+  TopNode root_;
+  TaskFailure failure_;
 };
 
 } // namespace
 
-BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings&) {
-  return Builder(boxes).build();
+BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings) {
+  if (boxes.empty()) return {};
+  if (boxes.size() > std::size_t{max_blocks} * block_size)
+    throw LimitError("too many primitives for one tree: " + std::to_string(boxes.size()));
+  return Builder(boxes, settings.threads).build();
 }
 
 } // namespace fastrt

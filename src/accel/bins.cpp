@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/accel/bins.hpp"
+
+#include <limits>
+
+namespace fastrt {
+
+BinMapping::BinMapping(const LaneBox& centroids) : base(centroids.lower) {
+  // A little less than the number of bins, so that the upper end falls into the last one.
+  const __m128 bins = _mm_set1_ps(bin_count * 0.99999F);
+  const __m128 extent = _mm_sub_ps(centroids.upper, centroids.lower);
+  const __m128 wide = _mm_cmpge_ps(extent, _mm_set1_ps(std::numeric_limits<float>::min()));
+  scale = _mm_and_ps(wide, _mm_div_ps(bins, extent));
+}
+
+void Bins::add(const Bins& other) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < bin_count; ++i) boxes[axis][i].extend(other.boxes[axis][i]);
+  for (int i = 0; i < bin_count; ++i)
+    for (int axis = 0; axis < 3; ++axis) counts[i][axis] += other.counts[i][axis];
+}
+
+namespace {
+
+// Sweeps over the bins of the three axes side by side: lane by lane, axis by axis.
+struct Sweep {
+  LaneBox boxes[3];
+  __m128i counts = _mm_setzero_si128();
+
+  void add(const Bins& bins, int i) {
+    for (int axis = 0; axis < 3; ++axis) boxes[axis].extend(bins.boxes[axis][i]);
+    counts = _mm_add_epi32(counts, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bins.counts[i])));
+  }
+  // An empty side has an infinite box and no blocks: NaN, which is less than nothing.
+  __m128 cost(__m128 scale) const {
+    const __m128 z = area_terms(boxes[2], scale);
+    const __m128 areas = sum_terms(area_terms(boxes[0], scale), area_terms(boxes[1], scale), z, z);
+    return _mm_mul_ps(areas, blocks_of(counts));
+  }
+};
+
+} // namespace
+
+BinSplit best_split(const Bins& bins, __m128 scale) {
+  __m128 right_costs[bin_count];
+  Sweep right;
+  for (int i = bin_count - 1; i > 0; --i) {
+    right.add(bins, i);
+    right_costs[i] = right.cost(scale);
+  }
+  Sweep left;
+  __m128 best_costs = _mm_set1_ps(infinity);
+  __m128i best_positions = _mm_setzero_si128();
+  for (int i = 1; i < bin_count; ++i) {
+    left.add(bins, i - 1);
+    const __m128 costs = _mm_add_ps(left.cost(scale), right_costs[i]);
+    const __m128 better = _mm_cmplt_ps(costs, best_costs);
+    best_costs = select(better, costs, best_costs);
+    best_positions = select(_mm_castps_si128(better), _mm_set1_epi32(i), best_positions);
+  }
+  alignas(16) float costs[4];
+  alignas(16) int positions[4];
+  _mm_store_ps(costs, best_costs);
+  _mm_store_si128(reinterpret_cast<__m128i*>(positions), best_positions);
+  BinSplit best;
+  float best_cost = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(costs[axis] < best_cost)) continue;
+    best_cost = costs[axis];
+    best = {axis, positions[axis], 0};
+  }
+  for (int i = 0; best.axis >= 0 && i < bin_count; ++i) best.occupied += bins.counts[i][best.axis] != 0;
+  return best;
+}
+
+LaneBox left_bounds(const Bins& bins, const BinSplit& split) {
+  LaneBox bounds;
+  for (int i = 0; i < split.position; ++i) bounds.extend(bins.boxes[split.axis][i]);
+  return bounds;
+}
+
+LaneBox right_bounds(const Bins& bins, const BinSplit& split) {
+  LaneBox bounds;
+  for (int i = split.position; i < bin_count; ++i) bounds.extend(bins.boxes[split.axis][i]);
+  return bounds;
+}
+
+std::size_t left_count(const Bins& bins, const BinSplit& split) {
+  std::size_t count = 0;
+  for (int i = 0; i < split.position; ++i) count += bins.counts[i][split.axis];
+  return count;
+}
+
+} // namespace fastrt
