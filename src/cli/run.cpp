@@ -5,6 +5,7 @@
 #include "src/cli/report.hpp"
 #include "src/cli/signals.hpp"
 #include "src/cli/stats.hpp"
+#include "src/scene/threads.hpp"
 
 #include <fastrt/fastrt.hpp>
 
@@ -39,16 +40,13 @@ Isa choose_isa(const Options& options) {
   return select_isa(environment == nullptr ? "auto" : environment);
 }
 
-// More threads than four a core only cost memory, and the run-time library of OpenMP ends the program when it
-// can't have those that it is asked for.
 int choose_threads(const Options& options) {
-  const int most = 4 * omp_get_num_procs();
-  const int wanted = options.threads != 0 ? options.threads : omp_get_max_threads();
-  if (options.threads > most) {
-    warn(options, "--threads: " + std::to_string(wanted) + " are too many for this machine, " +
-                      std::to_string(most) + " taken");
+  const int threads = thread_count(options.threads);
+  if (options.threads > threads) {
+    warn(options, "--threads: " + std::to_string(options.threads) + " are too many for this machine, " +
+                      std::to_string(threads) + " taken");
   }
-  return std::min(wanted, most);
+  return threads;
 }
 
 // Colour and primitive id of every pixel, twice if there are two renderings.
