@@ -2,13 +2,13 @@
 // The two questions about a batch of rays, and the choice of how to trace it.
 #pragma once
 
-#include "src/kernels/packet_traversal.hpp"
+#include "src/kernels/tile_traversal.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Nothing hit yet. Fills up to the next full register, so that kernels may read whole ones.
+// Nothing hit yet. Fills up to the next full group, so that kernels may read whole ones.
 FASTRT_INLINE void clear_hits(const RayBatch& rays, HitBatch& hits) {
-  for (int i = 0; i < rays.count; i += widest) {
+  for (int i = 0; i < (rays.count + group_size - 1) / group_size * group_size; i += widest) {
     load<PacketF>(rays.t_max + i).store_aligned(hits.t + i);
     PacketI(-1).store_aligned(hits.primitive + i);
   }
@@ -22,6 +22,8 @@ static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatc
     trace_rays_alone<any>(scene, rays, hits, 0, rays.count);
     return;
   }
+  const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;
+  if (alike && trace_tile<any>(scene, rays, hits)) return;
   for (int first = 0; first < rays.count; first += widest) trace_packet<any>(scene, rays, hits, first);
 }
 

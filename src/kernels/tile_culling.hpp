@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boxes and triangles as rectangles of a batch's projection, and the groups of rays that these touch.
+#pragma once
+
+#include "src/kernels/tile_setup.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// A rectangle per lane, and the depth at which its contents begin.
+template <class F>
+struct Rectangles {
+  F x0, x1, y0, y1, near;
+};
+
+// The part of the plane that a box covers, given its extent along u, v, w seen from the origin. Behind the
+// origin or around it the answer is the whole plane.
+template <class F>
+FASTRT_INLINE Rectangles<F> project_extent(const TileFrame& f, const F& u0, const F& u1, const F& v0,
+                                           const F& v1, const F& w0, const F& w1) {
+  if (!f.perspective) return {u0, u1, v0, v1, w0};
+  const F zero(0.0F), one(1.0F), everywhere(__builtin_inff()), nowhere(-__builtin_inff());
+  const F nearest = one / w0, farthest = one / w1;
+  const MaskOf<F> around = w0 <= zero;
+  const auto low = [&](const F& a) {
+    return select(around, nowhere, a * select(a < zero, nearest, farthest));
+  };
+  const auto high = [&](const F& a) {
+    return select(around, everywhere, a * select(a > zero, nearest, farthest));
+  };
+  const F x0 = low(u0), x1 = high(u1), y0 = low(v0), y1 = high(v1);
+  const F margin(rectangle_margin);
+  return {x0 - (abs(x0) + one) * margin, x1 + (abs(x1) + one) * margin, y0 - (abs(y0) + one) * margin,
+          y1 + (abs(y1) + one) * margin, w0};
+}
+
+// Which of a node's columns hold the least and the greatest corner along an axis of the frame, and the axis
+// itself.
+struct ExtentAxis {
+  V3<float> axis;
+  int low_x, low_y, low_z; // 0: the lower planes are least; 8: the upper ones
+  float offset;            // of the origin along the axis
+};
+
+FASTRT_INLINE ExtentAxis extent_axis(const TileFrame& f, const V3<float>& axis) {
+  return {axis, axis.x < 0.0F ? wide_children : 0, axis.y < 0.0F ? wide_children : 0,
+          axis.z < 0.0F ? wide_children : 0, dot(f.origin, axis)};
+}
+
+template <class F>
+struct Extent {
+  F low, high;
+};
+
+// The extent of eight boxes (or four) along an axis; `columns` points at the node's first column.
+template <class F>
+FASTRT_INLINE Extent<F> box_extent(const ExtentAxis& a, const float* columns, const F& padding) {
+  const F x(a.axis.x), y(a.axis.y), z(a.axis.z), offset(a.offset);
+  const float* const cy = columns + 2 * wide_children;
+  const float* const cz = columns + 4 * wide_children;
+  const F low = (x * load<F>(columns + a.low_x) + y * load<F>(cy + a.low_y)) + z * load<F>(cz + a.low_z);
+  const F high =
+      (x * load<F>(columns + (wide_children - a.low_x)) + y * load<F>(cy + (wide_children - a.low_y))) +
+      z * load<F>(cz + (wide_children - a.low_z));
+  return {(low - offset) - padding, (high - offset) + padding};
+}
+
+// The projection with what node tests need of it.
+struct TileView {
+  TileFrame frame;
+  ExtentAxis u, v, w;
+  TileGroups groups;
+  float x0, x1, y0, y1, far; // around all groups
+};
+
+FASTRT_INLINE void bound_view(TileView& view) {
+  view.x0 = least_of(view.groups.x0);
+  view.x1 = most_of(view.groups.x1);
+  view.y0 = least_of(view.groups.y0);
+  view.y1 = most_of(view.groups.y1);
+  view.far = most_of(view.groups.far);
+}
+
+// A node's children in the batch's projection; bits: those that the batch can meet.
+struct ChildRectangles {
+  alignas(32) float x0[wide_children], x1[wide_children], y0[wide_children], y1[wide_children],
+      near[wide_children];
+  std::uint32_t bits;
+};
+
+FASTRT_INLINE void project_children(const TileView& view, const WideNode& node, ChildRectangles& out) {
+  using N = Floats<node_lanes>;
+  const N padding(view.frame.padding);
+  out.bits = 0;
+  for (int half = 0; half < wide_children; half += node_lanes) {
+    const float* const columns = node.lower_x + half;
+    const Extent<N> w = box_extent(view.w, columns, padding);
+    const Extent<N> u = box_extent(view.u, columns, padding);
+    const Extent<N> v = box_extent(view.v, columns, padding);
+    const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
+    const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
+                          (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
+    out.bits |= to_bits(met) << half;
+    r.x0.store_aligned(out.x0 + half);
+    r.x1.store_aligned(out.x1 + half);
+    r.y0.store_aligned(out.y0 + half);
+    r.y1.store_aligned(out.y1 + half);
+    r.near.store_aligned(out.near + half);
+  }
+}
+
+// Groups that a rectangle touches and that still look as far as `near`.
+FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, float x1, float y0, float y1,
+                                           float near) {
+  std::uint32_t bits = 0;
+  for (int g = 0; g < batch_groups; g += widest) {
+    const PacketM touched = (PacketF::load_aligned(groups.x0 + g) <= PacketF(x1)) &
+                            (PacketF::load_aligned(groups.x1 + g) >= PacketF(x0)) &
+                            (PacketF::load_aligned(groups.y0 + g) <= PacketF(y1)) &
+                            (PacketF::load_aligned(groups.y1 + g) >= PacketF(y0)) &
+                            (PacketF::load_aligned(groups.far + g) >= PacketF(near));
+    bits |= to_bits(touched) << g;
+  }
+  return bits;
+}
+
+// Groups that still look as far as `near`.
+FASTRT_INLINE std::uint32_t far_groups(const TileGroups& groups, float near) {
+  std::uint32_t bits = 0;
+  for (int g = 0; g < batch_groups; g += widest)
+    bits |= to_bits(PacketF::load_aligned(groups.far + g) >= PacketF(near)) << g;
+  return bits;
+}
+
+// The rectangles of a block's triangles, given their vertices relative to the origin.
+FASTRT_INLINE Rectangles<Floats<block_size>> project_triangles(const TileView& view,
+                                                               const V3<Floats<block_size>>& a,
+                                                               const V3<Floats<block_size>>& b,
+                                                               const V3<Floats<block_size>>& c) {
+  using B = Floats<block_size>;
+  const V3<B> u = broadcast3<B>(view.frame.u), v = broadcast3<B>(view.frame.v),
+              w = broadcast3<B>(view.frame.w);
+  const B aw = dot(a, w), bw = dot(b, w), cw = dot(c, w);
+  const B padding(view.frame.padding);
+  const B near = min(aw, min(bw, cw)) - padding;
+  B ax = dot(a, u), bx = dot(b, u), cx = dot(c, u), ay = dot(a, v), by = dot(b, v), cy = dot(c, v);
+  if (!view.frame.perspective)
+    return {min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
+            max(ay, max(by, cy)) + padding, near};
+  const B one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin);
+  const B ai = one / aw, bi = one / bw, ci = one / cw;
+  ax = ax * ai, bx = bx * bi, cx = cx * ci, ay = ay * ai, by = by * bi, cy = cy * ci;
+  const MaskOf<B> around = near <= B(0.0F);
+  const B x0 = min(ax, min(bx, cx)), x1 = max(ax, max(bx, cx)), y0 = min(ay, min(by, cy)),
+          y1 = max(ay, max(by, cy));
+  const B mx = ((abs(x0) + abs(x1)) + one) * margin, my = ((abs(y0) + abs(y1)) + one) * margin;
+  return {select(around, negate(everywhere), x0 - mx), select(around, everywhere, x1 + mx),
+          select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near};
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

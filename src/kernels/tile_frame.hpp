@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// A batch of rays with one origin (or one direction), seen along its middle: rays become points (x, y) of a
+// plane, and boxes and triangles become rectangles there. Groups of 16 rays get a rectangle each, so that one
+// comparison tells which groups a box can touch. All of it only culls, with margins for rounding; the
+// primitives' own tests decide.
+//
+// Frusta around packets: Reshetov, Soupikov & Hurley 2005; large packets over wide trees: Fuetterling et al.,
+// JCGT 4(4), 2015. Here the frustum is a rectangle in the batch's own projection instead of planes in space.
+#pragma once
+
+#include "src/kernels/packet_traversal.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// Margin of the rectangles, as a share of their size and of 1.
+inline constexpr float rectangle_margin = 0x1p-20F;
+
+// Directions u, v, w of space as the batch sees it: w away from the viewer, u and v across.
+struct TileFrame {
+  V3<float> u, v, w;
+  V3<float> origin; // of all rays; 0 for parallel rays
+  float padding;    // boxes are met as if larger by this
+  float near;       // what lies before this depth matters to no ray
+  bool perspective; // rays from one origin; else parallel ones
+};
+
+// Per group: rectangle and farthest depth that matters; an empty rectangle where there is nothing left to do.
+struct alignas(64) TileGroups {
+  float x0[batch_groups], x1[batch_groups], y0[batch_groups], y1[batch_groups];
+  float far[batch_groups];
+  float depth_scale[batch_groups];  // largest d.w of the group: t * depth_scale bounds a depth
+  float depth_offset[batch_groups]; // largest origin.w of the group, for parallel rays
+};
+
+FASTRT_INLINE float dot(const V3<float>& a, const V3<float>& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+FASTRT_INLINE V3<float> unit(const V3<float>& a) {
+  const float inverse = 1.0F / __builtin_sqrtf(dot(a, a));
+  return {a.x * inverse, a.y * inverse, a.z * inverse};
+}
+
+template <class F>
+FASTRT_INLINE V3<F> broadcast3(const V3<float>& v) {
+  return {F(v.x), F(v.y), F(v.z)};
+}
+
+FASTRT_INLINE V3<float> ray_dir(const RayBatch& rays, int i) {
+  return {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]};
+}
+FASTRT_INLINE V3<float> ray_origin(const RayBatch& rays, int i) {
+  return {rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]};
+}
+
+// A direction across w, along `hint` if that says anything.
+FASTRT_INLINE V3<float> direction_across(const V3<float>& w, const V3<float>& hint) {
+  const float along = dot(hint, w);
+  const V3<float> across{hint.x - along * w.x, hint.y - along * w.y, hint.z - along * w.z};
+  const float length2 = dot(across, across);
+  if (length2 > 1e-6F * dot(hint, hint) && length2 > 1e-30F) return unit(across);
+  const float ax = __builtin_fabsf(w.x), ay = __builtin_fabsf(w.y), az = __builtin_fabsf(w.z);
+  if (ax <= ay && ax <= az) return unit({0.0F, w.z, -w.y});
+  if (ay <= az) return unit({-w.z, 0.0F, w.x});
+  return unit({w.y, -w.x, 0.0F});
+}
+
+// Smallest (or, negated, largest) of four groups' four lanes each.
+FASTRT_INLINE Floats<4> min_of_rows(const Floats<4>& a, const Floats<4>& b, const Floats<4>& c,
+                                    const Floats<4>& d) {
+  const __m128 ab = _mm_min_ps(_mm_unpacklo_ps(a.data, b.data), _mm_unpackhi_ps(a.data, b.data));
+  const __m128 cd = _mm_min_ps(_mm_unpacklo_ps(c.data, d.data), _mm_unpackhi_ps(c.data, d.data));
+  return _mm_min_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab));
+}
+template <class F>
+FASTRT_INLINE Floats<4> fold_min(const F& a) {
+  if constexpr (width_of<F> == 4) return a;
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8)
+    return _mm_min_ps(_mm256_castps256_ps128(a.data), _mm256_extractf128_ps(a.data, 1));
+#endif
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16)
+    return fold_min(
+        Floats<8>(_mm256_min_ps(_mm512_castps512_ps256(a.data), _mm512_extractf32x8_ps(a.data, 1))));
+#endif
+}
+// The least of 16 values that lie in a row of memory, folded to four.
+FASTRT_INLINE Floats<4> fold_group(const float* values) {
+  PacketF least = PacketF::load_aligned(values);
+  for (int k = widest; k < group_size; k += widest) least = min(least, PacketF::load_aligned(values + k));
+  return fold_min(least);
+}
+// out[g] = the least of values[16 g .. 16 g + 15].
+FASTRT_INLINE void min_of_groups(const float* values, float* out) {
+  for (int g = 0; g < batch_groups; g += 4)
+    min_of_rows(fold_group(values + g * group_size), fold_group(values + (g + 1) * group_size),
+                fold_group(values + (g + 2) * group_size), fold_group(values + (g + 3) * group_size))
+        .store_aligned(out + g);
+}
+FASTRT_INLINE void max_of_groups(const float* negated_values, float* out) {
+  min_of_groups(negated_values, out);
+  for (int g = 0; g < batch_groups; g += widest)
+    negate(PacketF::load_aligned(out + g)).store_aligned(out + g);
+}
+
+FASTRT_INLINE float least_of(const float* groups) {
+  PacketF least = PacketF::load_aligned(groups);
+  for (int g = widest; g < batch_groups; g += widest) least = min(least, PacketF::load_aligned(groups + g));
+  return reduce_min(least);
+}
+FASTRT_INLINE float most_of(const float* groups) {
+  PacketF most = PacketF::load_aligned(groups);
+  for (int g = widest; g < batch_groups; g += widest) most = max(most, PacketF::load_aligned(groups + g));
+  return reduce_max(most);
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole batch of rays with a common origin or a common direction through the wide tree at once. A node is
+// met once for all rays; each entry of the stack knows which groups of 16 rays it concerns, so deep nodes
+// concern few. A block's four triangles are projected together, and set up only if some group can touch them;
+// rays of a common origin share the set-up without changing a bit.
+#pragma once
+
+#include "src/kernels/tile_culling.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+struct TileEntry {
+  std::uint32_t child;
+  std::uint32_t groups;
+  float near;
+};
+
+// All that a traversal carries.
+template <bool any>
+struct TileTraversal {
+  const GeometryView& scene;
+  const RayBatch& rays;
+  HitBatch& hits;
+  const LiveRays& live;
+  TileView view;
+};
+
+// After a hit: how far the group's rays still look. A group whose rays all have a hit looks nowhere if any
+// will do.
+template <bool any>
+FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g) {
+  if constexpr (any) {
+    std::uint32_t open = 0;
+    for (int k = 0; k < group_size; k += widest)
+      open |= to_bits(simd::bool_cast(PacketI::load_aligned(tile.hits.primitive + g * group_size + k) <
+                                      PacketI(0)))
+              << k;
+    if ((open & tile.live.bits[g]) == 0) tile.view.groups.far[g] = -__builtin_inff();
+  } else {
+    tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.live.bits[g], g);
+  }
+}
+
+// One primitive against the rays of group g. meet(dir, origin, t_min) gives the lanes that it hits and their
+// t.
+template <bool any, class Meet>
+FASTRT_INLINE void meet_group(TileTraversal<any>& tile, int g, std::int32_t primitive, const Meet& meet) {
+  bool changed = false;
+  for (int k = 0; k < group_size; k += widest) {
+    const int i = g * group_size + k;
+    const auto [hit, t] = meet(i);
+    const PacketM counted = hit & from_bits<widest>(tile.live.bits[g] >> k);
+    if (to_bits(counted) == 0) continue;
+    PacketF best_t = PacketF::load_aligned(tile.hits.t + i);
+    PacketI best_primitive = PacketI::load_aligned(tile.hits.primitive + i);
+    if (keep_closest(best_t, best_primitive, PacketI::load_aligned(tile.rays.exclude + i), counted, t,
+                     primitive) == 0)
+      continue;
+    best_t.store_aligned(tile.hits.t + i);
+    best_primitive.store_aligned(tile.hits.primitive + i);
+    changed = true;
+  }
+  if (changed) shorten_group(tile, g);
+}
+
+struct MetLanes {
+  PacketM hit;
+  PacketF t;
+};
+
+FASTRT_INLINE V3<PacketF> load_dir(const RayBatch& rays, int i) {
+  return {PacketF::load_aligned(rays.dir_x + i), PacketF::load_aligned(rays.dir_y + i),
+          PacketF::load_aligned(rays.dir_z + i)};
+}
+FASTRT_INLINE V3<PacketF> load_origin(const RayBatch& rays, int i) {
+  return {PacketF::load_aligned(rays.origin_x + i), PacketF::load_aligned(rays.origin_y + i),
+          PacketF::load_aligned(rays.origin_z + i)};
+}
+
+// Four set-ups as columns, so that one can be spread over a register.
+struct BlockSetup {
+  alignas(16) float columns[13][block_size];
+};
+
+FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<Floats<block_size>>& s) {
+  BlockSetup out;
+  store3(s.edge_a, out.columns[0], out.columns[1], out.columns[2]);
+  store3(s.edge_b, out.columns[3], out.columns[4], out.columns[5]);
+  store3(s.edge_c, out.columns[6], out.columns[7], out.columns[8]);
+  store3(s.normal, out.columns[9], out.columns[10], out.columns[11]);
+  s.offset.store_aligned(out.columns[12]);
+  return out;
+}
+
+FASTRT_INLINE TriangleSetup<PacketF> spread_setup(const BlockSetup& s, int i) {
+  const auto v = [&](int c) {
+    return broadcast3<PacketF>(s.columns[c][i], s.columns[c + 1][i], s.columns[c + 2][i]);
+  };
+  return {v(0), v(3), v(6), v(9), PacketF(s.columns[12][i])};
+}
+
+// Triangle i of a block against the groups in `groups`, all rays from one origin.
+template <bool any>
+FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, int i,
+                                    std::int32_t primitive, std::uint32_t groups) {
+  const TriangleSetup<PacketF> setup = spread_setup(block, i);
+  for (; groups != 0; groups &= groups - 1)
+    meet_group(tile, __builtin_ctz(groups), primitive, [&](int ray) -> MetLanes {
+      const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray));
+      return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
+    });
+}
+
+// The same for parallel rays, each with its own origin.
+template <bool any>
+FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const TriangleBlock& block, int i,
+                                 std::uint32_t groups) {
+  for (; groups != 0; groups &= groups - 1)
+    meet_group(tile, __builtin_ctz(groups), block.primitive[i], [&](int ray) -> MetLanes {
+      const V3<PacketF> origin = load_origin(tile.rays, ray);
+      const TriangleSetup<PacketF> setup = set_up_triangle(
+          vertex(block, 0, i) - origin, vertex(block, 1, i) - origin, vertex(block, 2, i) - origin);
+      const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray));
+      return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
+    });
+}
+
+template <bool any>
+FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const TriangleBlock& block, std::uint32_t groups) {
+  using B = Floats<block_size>;
+  const V3<B> origin = broadcast3<B>(tile.view.frame.origin);
+  const V3<B> a = load3<B>(block.x[0], block.y[0], block.z[0]) - origin;
+  const V3<B> b = load3<B>(block.x[1], block.y[1], block.z[1]) - origin;
+  const V3<B> c = load3<B>(block.x[2], block.y[2], block.z[2]) - origin;
+  const Rectangles<B> r = project_triangles(tile.view, a, b, c);
+  alignas(16) float x0[block_size], x1[block_size], y0[block_size], y1[block_size], near[block_size];
+  r.x0.store_aligned(x0);
+  r.x1.store_aligned(x1);
+  r.y0.store_aligned(y0);
+  r.y1.store_aligned(y1);
+  r.near.store_aligned(near);
+  std::uint32_t touched[block_size], some = 0;
+  for (int i = 0; i < block_size; ++i) {
+    touched[i] = touched_groups(tile.view.groups, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
+    some |= touched[i];
+  }
+  if (some == 0) return;
+  if (!tile.view.frame.perspective) {
+    for (int i = 0; i < block_size; ++i) meet_parallel(tile, block, i, touched[i]);
+    return;
+  }
+  const BlockSetup setup = store_setup(set_up_triangle(a, b, c));
+  for (int i = 0; i < block_size; ++i)
+    if (touched[i] != 0) meet_from_origin(tile, setup, i, block.primitive[i], touched[i]);
+}
+
+template <bool any>
+FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const SphereBlock& block, std::uint32_t groups) {
+  for (int i = 0; i < block_size && block.primitive[i] >= 0; ++i) {
+    const V3<PacketF> center = broadcast3<PacketF>(block.x[i], block.y[i], block.z[i]);
+    const PacketF radius(block.radius[i]);
+    for (std::uint32_t left = groups; left != 0; left &= left - 1)
+      meet_group(tile, __builtin_ctz(left), block.primitive[i], [&](int ray) -> MetLanes {
+        const SphereLanes<PacketF> lanes =
+            intersect_sphere(center, radius, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
+                             PacketF::load_aligned(tile.rays.t_min + ray));
+        return {lanes.hit, lanes.t};
+      });
+  }
+}
+
+template <bool any>
+FASTRT_INLINE void meet_leaf(TileTraversal<any>& tile, std::uint32_t leaf, std::uint32_t groups) {
+  const std::uint32_t first = leaf_first_block(leaf);
+  const std::uint32_t end = first + leaf_blocks(leaf);
+  if (leaf_group(leaf) == triangle_group)
+    for (std::uint32_t b = first; b != end; ++b) meet_block(tile, tile.scene.triangles[b], groups);
+  else
+    for (std::uint32_t b = first; b != end; ++b) meet_block(tile, tile.scene.spheres[b], groups);
+}
+
+// What will be looked at soon is asked for now: a miss beyond the last cache costs as much as testing a few
+// blocks.
+FASTRT_INLINE void prefetch_child(const GeometryView& scene, std::uint32_t child) {
+  const char* at;
+  int lines = 4;
+  if (!is_leaf(child)) {
+    at = reinterpret_cast<const char*>(&scene.nodes[child]);
+  } else if (leaf_group(child) == triangle_group) {
+    at = reinterpret_cast<const char*>(&scene.triangles[leaf_first_block(child)]);
+    lines = 3;
+  } else {
+    at = reinterpret_cast<const char*>(&scene.spheres[leaf_first_block(child)]);
+    lines = 2;
+  }
+  for (int i = 0; i < lines; ++i) __builtin_prefetch(at + 64 * i);
+}
+
+template <bool any>
+FASTRT_INLINE TileEntry* push_children(const TileTraversal<any>& tile, const WideNode& node,
+                                       const ChildRectangles& c, std::uint32_t groups, TileEntry* top) {
+  TileEntry* const bottom = top;
+  for (std::uint32_t bits = c.bits; bits != 0; bits &= bits - 1) {
+    const int i = __builtin_ctz(bits);
+    const std::uint32_t touched =
+        touched_groups(tile.view.groups, c.x0[i], c.x1[i], c.y0[i], c.y1[i], c.near[i]) & groups;
+    if (touched == 0) continue;
+    prefetch_child(tile.scene, node.child[i]);
+    const TileEntry entry{node.child[i], touched, c.near[i]};
+    TileEntry* place = top++;
+    for (; place != bottom && place[-1].near < entry.near; --place) *place = place[-1];
+    *place = entry;
+  }
+  return top;
+}
+
+template <bool any>
+FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
+  TileEntry stack[max_tree_stack];
+  stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff()};
+  TileEntry* top = stack + 1;
+  ChildRectangles children;
+  while (top != stack) {
+    const TileEntry entry = *--top;
+    const std::uint32_t groups = entry.groups & far_groups(tile.view.groups, entry.near);
+    if (groups == 0) continue;
+    if (is_leaf(entry.child)) {
+      meet_leaf(tile, entry.child, groups);
+      tile.view.far = most_of(tile.view.groups.far);
+      continue;
+    }
+    const WideNode& node = tile.scene.nodes[entry.child];
+    project_children(tile.view, node, children);
+    top = push_children(tile, node, children, groups, top);
+  }
+}
+
+// Traces the batch as one; false (and nothing done) if its rays don't allow that. hits: cleared by the
+// caller.
+template <bool any>
+static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  const LiveRays live = find_live_rays(rays);
+  if (live.first < 0) return true;
+  if (live.backwards) return false;
+  TileTraversal<any> tile{scene, rays, hits, live, {}};
+  tile.view.frame = make_tile_frame(rays, live);
+  if (!project_batch(scene, rays, live, tile.view.frame, tile.view.groups)) return false;
+  tile.view.u = extent_axis(tile.view.frame, tile.view.frame.u);
+  tile.view.v = extent_axis(tile.view.frame, tile.view.frame.v);
+  tile.view.w = extent_axis(tile.view.frame, tile.view.frame.w);
+  for (int g = 0; g < batch_groups; ++g)
+    tile.view.groups.far[g] =
+        live.bits[g] == 0 ? -__builtin_inff() : group_far(hits, tile.view.groups, live.bits[g], g);
+  bound_view(tile.view);
+  traverse(tile);
+  return true;
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
