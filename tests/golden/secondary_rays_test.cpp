@@ -30,7 +30,7 @@ TEST_P(SecondaryRays, MirrorShowsThingsBehindIt) {
     const double direct = gap(pinhole.eye(), direction, ball);
     const double mirrored = gap(pinhole.eye(), direction, image);
     // The quad's far rim is just below the horizon.
-    if (std::fabs(direct) < 1e-3 || std::fabs(direction.y) < 0.03) return std::optional<Vec3>();
+    if (std::fabs(direct) < 1e-3 || std::fabs(direction.y) < 0.022) return std::optional<Vec3>();
     if (direct < 0) return std::optional(red);
     return direction.y > 0 ? std::optional(sky) : unless_close(mirrored, 0.5F * red, 0.5F * sky);
   });
