@@ -6,10 +6,13 @@
 #include "src/cli/signals.hpp"
 #include "src/cli/stats.hpp"
 #include "src/scene/threads.hpp"
+#include "src/write/output_file.hpp"
 
 #include <fastrt/fastrt.hpp>
 
 #include <omp.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,6 +22,7 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace fastrt::cli {
 namespace {
@@ -125,12 +129,19 @@ int report_interrupted(double share) {
   return 128 + signal;
 }
 
-void report(const Options& options, const RunStats& stats) {
+// to_stderr: when the picture itself goes to stdout.
+void report(const Options& options, const RunStats& stats, bool to_stderr) {
   if (options.stats == StatsFormat::text) std::fputs(stats_text(stats).c_str(), stderr);
+  std::string text;
   if (options.stats == StatsFormat::json) {
-    print_out(stats_json(stats));
+    text = stats_json(stats);
   } else if (!options.quiet) {
-    print_out(verify_text(stats) + summary_line(stats));
+    text = verify_text(stats) + summary_line(stats);
+  }
+  if (to_stderr) {
+    std::fputs(text.c_str(), stderr);
+  } else {
+    print_out(text);
   }
 }
 
@@ -160,9 +171,30 @@ SceneDesc read_scene(const Options& options, int threads) {
   return desc;
 }
 
+// The format that the name asks for; a device without an extension gets PNG.
+std::string format_of(const fs::path& output) {
+  std::string extension = output.extension().string();
+  if (extension.empty()) return "png";
+  extension.erase(0, 1);
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+// Encoding may take long, and a signal may end it; putting the bytes into their place is done to the end.
 void save(const fs::path& output, const Frame& frame, int threads) {
+  const std::vector<unsigned char> bytes =
+      encode_image(format_of(output), frame.rgb, frame.width, frame.height, threads);
   enter_phase(Phase::saving);
-  write_image(output, frame.rgb, frame.width, frame.height, threads);
+  replace_file(output, bytes.data(), bytes.size());
+}
+
+// Whether the picture goes where print_out() goes.
+bool is_standard_output(const fs::path& output) {
+  struct stat picture {};
+  struct stat stream {};
+  return !output.empty() && stat(output.c_str(), &picture) == 0 && fstat(STDOUT_FILENO, &stream) == 0 &&
+         !S_ISCHR(stream.st_mode) && picture.st_dev == stream.st_dev && picture.st_ino == stream.st_ino;
 }
 
 } // namespace
@@ -222,7 +254,7 @@ int run(const Options& options, Clock::time_point start) {
 
   stats.peak_rss_bytes = peak_rss_bytes();
   stats.total_seconds = seconds_since(start);
-  report(options, stats);
+  report(options, stats, is_standard_output(output));
   if (!stats.verify || (stats.verify->pixels == 0 && stats.verify->primitives == 0)) return exit_done;
   print_error("the kernels and the plain scalar code make different pictures");
   return exit_differs;

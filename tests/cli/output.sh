@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Pictures and reports: where they go and what they look like.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+# magic FILE: its first four bytes in hexadecimal.
+magic() { head -c 4 "$1" | od -An -tx1 | tr -d ' \n'; }
+
+every_extension() {
+  local extension expected
+  while read -r extension expected; do
+    expect 0 "$scenes/spheres.obj" "${small[@]}" -o "picture.$extension"
+    [[ $(magic "picture.$extension") =~ ^($expected) ]] || fail "picture.$extension is no $extension"
+  done <<'LIST'
+png 89504e47
+PNG 89504e47
+ppm 50360a
+pfm 50460a
+exr 762f3101
+jpg ffd8ff
+jpeg ffd8ff
+tif 49492a00|4d4d002a
+tiff 49492a00|4d4d002a
+hdr 233f5241|233f5247
+LIST
+}
+
+default_name() {
+  mkdir deep
+  cp tiny.obj deep/model.v2.obj
+  expect 0 deep/model.v2.obj "${small[@]}"
+  [ -s model.v2.png ] || fail "no model.v2.png here"
+}
+
+no_file() {
+  expect 0 tiny.obj "${small[@]}" -o none
+  [ "$(find . -name '*.png' -o -name none | wc -l)" -eq 0 ] || fail "a file was written"
+}
+
+last_line() {
+  expect 0 tiny.obj "${small[@]}"
+  tail -n 1 out | grep -qE \
+    '^tiny.png: 48x32, 2 triangles, 1 spp, [0-9.]+ Mrays in [0-9.]+ s \([0-9.]+ Mrays/s\), total [0-9.]+ s$' ||
+    fail "another last line"
+}
+
+quiet() {
+  printf 'v 0 0 0\nusemtl none\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >odd.obj
+  expect 0 odd.obj "${small[@]}" -q
+  [ ! -s out ] && [ ! -s err ] || fail "not quiet"
+}
+
+stats_text() {
+  expect 0 tiny.obj "${small[@]}" --stats
+  for text in read build render write primary shadow reflected refracted Mrays/s SAH memory; do
+    grep -q "$text" err || fail "no $text"
+  done
+  [ "$(wc -l <out)" -eq 1 ] || fail "more than the last line on stdout"
+}
+
+stats_json() {
+  expect 0 tiny.obj "${small[@]}" --stats=json --verify
+  [ "$(wc -l <out)" -eq 1 ] || fail "not one object"
+  [ ! -s err ] || fail "something on stderr"
+  if command -v python3 >/dev/null; then
+    python3 - out <<'PYTHON' || fail "no JSON"
+import json, sys
+stats = json.load(open(sys.argv[1]))
+assert stats["width"] == 48 and stats["rays"]["primary"] == 48 * 32 and stats["triangles"] == 2
+assert stats["verify"]["pixels"] == 0 and stats["peak_rss_bytes"] > 0 and stats["seconds"]["total"] > 0
+PYTHON
+  fi
+}
+
+picture_to_stdout() {
+  "$fastrt" tiny.obj "${small[@]}" -o a.png >/dev/null
+  "$fastrt" tiny.obj "${small[@]}" -o /dev/stdout 2>err | cat >b.png
+  cmp a.png b.png
+  grep -q 'Mrays/s' err || fail "no last line on stderr"
+}
+
+unwritable() {
+  mkdir folder.png
+  expect_error 4 'missing' tiny.obj -o missing/a.png
+  expect_error 4 'folder.png' tiny.obj -o folder.png
+  expect_error 4 'tiny.obj' tiny.obj -o tiny.obj/a.png
+  # Before the rendering, which would take hours.
+  local start=$SECONDS
+  expect_error 4 'missing' "$scenes/spheres.obj" -r 8000x8000 -s 1000 -o missing/a.png
+  [ $((SECONDS - start)) -lt 20 ] || fail "found out late"
+  # For root, permissions say nothing.
+  if [ "$(id -u)" -ne 0 ]; then
+    mkdir locked
+    chmod a-w locked
+    expect_error 4 'denied' tiny.obj -o locked/a.png
+  fi
+}
+
+output_is_the_scene() {
+  ln tiny.obj same.png
+  ln -s tiny.obj linked.png
+  cp tiny.obj copy
+  expect_error 2 'the scene' tiny.obj -o same.png
+  expect_error 2 'the scene' tiny.obj -o linked.png
+  cmp tiny.obj copy
+}
+
+old_picture_survives() {
+  echo old >a.png
+  # A file may grow to 1 KiB only: the write fails, and the old picture stays.
+  local code=0
+  (ulimit -f 1 && "$fastrt" "$scenes/spheres.obj" -r 400x300 -o a.png >/dev/null 2>&1) || code=$?
+  [ "$code" -eq 4 ] || fail "ended with $code"
+  [ "$(cat a.png)" = old ] || fail "the old picture is gone"
+  [ "$(find . -name '*.tmp' -o -name '.fastrt*' | wc -l)" -eq 0 ] || fail "something is left over"
+}
+
+locale_does_not_matter() {
+  "$fastrt" "$scenes/spheres.obj" "${small[@]}" -o a.ppm --fov 33.5 --ambient 0.1,0.2,0.3 >/dev/null
+  local name
+  for name in de_DE.UTF-8 tr_TR.UTF-8 xx; do
+    LC_ALL=$name LANG=$name "$fastrt" "$scenes/spheres.obj" "${small[@]}" -o b.ppm --fov 33.5 \
+      --ambient 0.1,0.2,0.3 >/dev/null
+    cmp a.ppm b.ppm
+  done
+}
+
+progress_on_a_terminal_only() {
+  expect 0 "$scenes/spheres.obj" -r 640x480 -s 4
+  [ ! -s err ] || fail "progress without a terminal"
+  command -v script >/dev/null || return 0
+  local command="'$fastrt' '$scenes/spheres.obj' -r 1600x1200 -s 16"
+  TERM=xterm script -qec "$command" /dev/null </dev/null >out
+  grep -q 'rendering .* %' out || fail "no progress on a terminal"
+  TERM=dumb script -qec "$command" /dev/null </dev/null >out
+  ! grep -q 'rendering .* %' out || fail "progress on a dumb terminal"
+  TERM=xterm script -qec "$command --no-progress" /dev/null </dev/null >out
+  ! grep -q 'rendering .* %' out || fail "progress in spite of --no-progress"
+}
+
+run_case

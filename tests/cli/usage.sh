@@ -1,0 +1,170 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What the program makes of its command line, and how it refuses.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+help_is_grouped() {
+  expect 0 --help
+  for text in 'Usage: fastrt' 'Image:' 'Sampling:' 'Camera' 'Engine:' 'Report:' 'Examples:' '--spp' '--verify'; do
+    grep -qF -- "$text" out || fail "no '$text'"
+  done
+  expect 0 -h
+}
+
+version_names_the_isas() {
+  expect 0 --version
+  grep -qE '^fastrt [0-9]+\.[0-9]+\.[0-9]+$' out || fail "no version"
+  grep -qE '^instruction sets here: .*scalar' out || fail "no instruction sets"
+}
+
+version_is_quick() {
+  local start end
+  "$fastrt" --version >out
+  start=$(date +%s%N)
+  for _ in 1 2 3 4 5 6 7 8 9 10; do "$fastrt" --version >out; done
+  end=$(date +%s%N)
+  # Linking OpenImageIO would cost 200 ms each.
+  [ $((end - start)) -lt 1000000000 ] || fail "ten starts took $(((end - start) / 1000000)) ms"
+}
+
+options_out_of_range() {
+  local arguments
+  while read -r arguments; do
+    # shellcheck disable=SC2086
+    expect_error 2 '' tiny.obj $arguments
+  done <<'LIST'
+--spp 0
+--spp -1
+--spp 1000000000
+--spp abc
+--spp 1.5
+--spp
+-r 0x10
+-r -5x10
+-r 99999999x10
+-r 65537x1
+-r 10
+-r axb
+--threads 0
+--threads -1
+--max-depth -1
+--min-contribution -0.1
+--min-contribution nan
+--fov 0
+--fov 180
+--fov nan
+--seed -1
+--filter cone
+--eye 1,2
+--eye 1,2,inf
+--ambient -1,0,0
+--light lamp
+--light point:1,2
+--light spot:1,2,3
+--stats=xml
+--max-image-mb 0
+--bogus
+-z
+-o picture.xyz
+-o picture
+LIST
+  expect_error 2 '' tiny.obj -o ''
+}
+
+one_scene_only() {
+  expect_error 2 '' tiny.obj tiny.obj
+  expect_error 2 'scene'
+}
+
+names_with_a_dash() {
+  cp tiny.obj ./-x.obj
+  cp tiny.obj ./--spp
+  expect 0 "${small[@]}" -- -x.obj
+  [ -s ./-x.png ] || fail "no -x.png"
+  expect 0 "${small[@]}" ./-x.obj -o y.png
+  [ -s y.png ] || fail "no y.png"
+  expect_error 2 '' "${small[@]}" -- --spp
+}
+
+unsupported_isa() {
+  expect_error 2 'mmx' tiny.obj --isa mmx
+  local isa
+  for isa in avx512 avx2 sse4.2 scalar; do
+    if [[ " $(isas) " == *" $isa "* ]]; then
+      expect 0 tiny.obj "${small[@]}" --isa $isa
+    else
+      expect_error 2 $isa tiny.obj --isa $isa
+    fi
+  done
+}
+
+isa_from_environment() {
+  FASTRT_ISA=scalar expect 0 tiny.obj "${small[@]}" --stats=json
+  grep -q '"isa": "scalar"' out || fail "FASTRT_ISA has no effect"
+  FASTRT_ISA=mmx expect_error 2 mmx tiny.obj
+  FASTRT_ISA=mmx expect 0 tiny.obj "${small[@]}" --isa scalar
+  FASTRT_ISA='' expect 0 tiny.obj "${small[@]}"
+}
+
+limits() {
+  expect_error 5 '65536x65536' tiny.obj -r 65536x65536
+  expect_error 5 'max-image-mb' tiny.obj -r 256x257 --max-image-mb 1
+  expect 0 tiny.obj -r 256x256 --max-image-mb 1
+  expect_error 5 'max-image-mb' tiny.obj -r 256x256 --max-image-mb 1 --verify
+  expect 0 tiny.obj "${small[@]}" --max-depth 1000000000
+  grep -q '^fastrt: warning: --max-depth' err || fail "no warning"
+  # Not enough memory for the picture: that is said, and is no crash.
+  (ulimit -v 400000 && expect_error 5 'memory' tiny.obj -r 8192x8190 -t 1)
+}
+
+cameras() {
+  expect_error 3 'degenerate' tiny.obj --eye 1,1,1 --look-at 1,1,1
+  expect_error 3 'degenerate' tiny.obj --eye 0,5,0 --look-at 0,0,0
+  expect_error 3 'degenerate' tiny.obj --up 0,0,0
+  expect 0 tiny.obj "${small[@]}" --eye 0,5,0 --look-at 0,0,0 --up 0,0,1 --fov 179
+}
+
+inputs() {
+  expect_error 3 'missing.obj' missing.obj
+  expect_error 3 '' "$scratch/"
+  expect_error 2 '.xyz' scene.xyz
+  printf 'v 0 0 0\nf 1 2 3\n' >bad.obj
+  expect_error 3 'bad.obj:2' bad.obj
+  printf 'v 0 0 0\nusemtl none\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >odd.obj
+  expect 0 odd.obj "${small[@]}"
+  grep -q '^fastrt: warning: ' err || fail "no warning"
+  expect_error 3 'none' odd.obj --strict
+  : >empty.obj
+  expect 0 empty.obj "${small[@]}"
+}
+
+errors_are_one_line() {
+  expect_error 3 'missing\x0a' $'missing\n\x1b[31m.obj'
+  expect_error 2 '\x1b[31m' tiny.obj --isa $'\x1b[31m'
+}
+
+closed_streams() {
+  "$fastrt" tiny.obj "${small[@]}" -o a.png >&- || fail "closed stdout"
+  "$fastrt" tiny.obj "${small[@]}" -o b.png <&- 2>&- >&- || fail "closed streams"
+  "$fastrt" tiny.obj "${small[@]}" -o c.png >out
+  cmp a.png c.png
+  cmp b.png c.png
+}
+
+full_standard_output() {
+  local code=0
+  "$fastrt" tiny.obj "${small[@]}" >/dev/full 2>err || code=$?
+  [ "$code" -eq 4 ] || fail "ended with $code"
+  code=0
+  "$fastrt" --help >/dev/full 2>err || code=$?
+  [ "$code" -eq 4 ] || fail "--help ended with $code"
+  grep -q '^fastrt: error: .*No space left' err || fail "no reason"
+}
+
+many_threads() {
+  expect 0 tiny.obj "${small[@]}" --threads 1000000
+  grep -q '^fastrt: warning: --threads' err || fail "no warning"
+  OMP_NUM_THREADS=100000 expect 0 tiny.obj "${small[@]}"
+}
+
+run_case
