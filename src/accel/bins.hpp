@@ -19,10 +19,14 @@ struct BinMapping {
   // For doubled centroids within these bounds. An axis without extent has one bin.
   explicit BinMapping(const LaneBox& centroids);
 
-  // Three bin numbers; outside the bounds, or if the numbers overflow, it is some bin all the same.
-  __m128i operator()(__m128 doubled_centroid) const {
-    const __m128i bins = _mm_cvttps_epi32(_mm_mul_ps(_mm_sub_ps(doubled_centroid, base), scale));
-    return _mm_max_epi16(_mm_min_epi16(bins, _mm_set1_epi32(bin_count - 1)), _mm_setzero_si128());
+  // Three bin numbers, slightly out of range for a centroid slightly out of bounds.
+  __m128i unclamped(__m128 centroid) const {
+    return _mm_cvttps_epi32(_mm_mul_ps(_mm_sub_ps(centroid, base), scale));
+  }
+  // Three bin numbers, in range whatever the centroid is.
+  __m128i operator()(__m128 centroid) const {
+    return _mm_max_epi16(_mm_min_epi16(unclamped(centroid), _mm_set1_epi32(bin_count - 1)),
+                         _mm_setzero_si128());
   }
 };
 
@@ -31,16 +35,22 @@ struct Bins {
   LaneBox boxes[3][bin_count];
   std::uint32_t counts[bin_count][4] = {};
 
+  // The numbers are multiplied by 16 all at once, so that they need no arithmetic to become addresses.
   void add(const LaneBox& box, __m128i bins) {
-    const int x = _mm_cvtsi128_si32(bins), y = _mm_extract_epi16(bins, 2), z = _mm_extract_epi16(bins, 4);
-    boxes[0][x].extend(box);
-    boxes[1][y].extend(box);
-    boxes[2][z].extend(box);
-    ++counts[x][0];
-    ++counts[y][1];
-    ++counts[z][2];
+    const __m128i offsets = _mm_slli_epi32(bins, 4);
+    add(box, 0, static_cast<unsigned>(_mm_cvtsi128_si32(offsets)));
+    add(box, 1, static_cast<unsigned>(_mm_extract_epi16(offsets, 2)));
+    add(box, 2, static_cast<unsigned>(_mm_extract_epi16(offsets, 4)));
   }
   void add(const Bins& other);
+
+private:
+  void add(const LaneBox& box, int axis, std::size_t offset) {
+    static_assert(sizeof(LaneBox) == 32 && sizeof(counts[0]) == 16);
+    reinterpret_cast<LaneBox*>(reinterpret_cast<char*>(boxes[axis]) + offset * 2)->extend(box);
+    ++*reinterpret_cast<std::uint32_t*>(reinterpret_cast<char*>(counts) + offset +
+                                        std::size_t{4} * static_cast<std::size_t>(axis));
+  }
 };
 
 // A plane between bins: left of it lie the bins 0 .. position - 1 of the axis.
@@ -53,6 +63,7 @@ struct BinSplit {
 // The plane with the least area * blocks on both sides; none if no plane has something on either side.
 BinSplit best_split(const Bins& bins, __m128 scale);
 
+// `bins` may be unclamped: the ends stay on their sides.
 inline bool is_right(__m128i bins, const BinSplit& split) {
   const __m128i right = _mm_cmpgt_epi32(bins, _mm_set1_epi32(split.position - 1));
   return (static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(right))) >> split.axis & 1U) != 0;

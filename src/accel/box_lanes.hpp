@@ -23,9 +23,13 @@ struct LaneBox {
 };
 
 // Ids and groups are cleared: as floats they are denormals, which take a hundred cycles to compute with.
-inline LaneBox load(const PrimitiveBox& box) {
+inline LaneBox clear_fourth(const LaneBox& box) {
   const __m128 xyz = _mm_castsi128_ps(_mm_set_epi32(0, -1, -1, -1));
-  return {_mm_and_ps(_mm_load_ps(box.lower), xyz), _mm_and_ps(_mm_load_ps(box.upper), xyz)};
+  return {_mm_and_ps(box.lower, xyz), _mm_and_ps(box.upper, xyz)};
+}
+
+inline LaneBox load(const PrimitiveBox& box) {
+  return clear_fourth({_mm_load_ps(box.lower), _mm_load_ps(box.upper)});
 }
 
 // Twice the centre.

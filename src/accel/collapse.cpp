@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/accel/parallel.hpp"
 #include "src/accel/tree.hpp"
 
 #include <fastrt/error.hpp>
 
+#include <algorithm>
+#include <deque>
 #include <string>
+#include <utility>
 
 namespace fastrt {
 namespace {
+
+// So many parts are collapsed at the same time, at most. The number of threads has no say in it.
+constexpr std::size_t enough_parts = 128;
+
+// A wide node still made of binary ones.
+struct Family {
+  std::uint32_t children[wide_children];
+  float areas[wide_children]; // -1 for leaves: they can't be opened
+  int count = 0;
+};
 
 float half_area(const BinaryNode& node) {
   const float x = node.upper[0] - node.lower[0];
@@ -15,13 +29,27 @@ float half_area(const BinaryNode& node) {
   return x * y + y * z + z * x;
 }
 
-void make_empty(WideNode& node) {
-  for (int i = 0; i < wide_children; ++i) {
-    node.lower_x[i] = node.lower_y[i] = node.lower_z[i] = infinity;
-    node.upper_x[i] = node.upper_y[i] = node.upper_z[i] = -infinity;
-    node.child[i] = no_child;
-    node.unused[i] = 0;
+// Opens the largest child that is no leaf until there is no room or no such child.
+Family adopt(const BinaryTree& tree, std::uint32_t parent) {
+  Family family;
+  const auto set = [&](int i, std::uint32_t child) {
+    family.children[i] = child;
+    family.areas[i] = tree.nodes[child].count != 0 ? -1.0F : half_area(tree.nodes[child]);
+  };
+  set(0, parent);
+  family.count = 1;
+  for (int opened = 0; family.count < wide_children;) {
+    const std::uint32_t first = tree.nodes[family.children[opened]].first;
+    for (int i = family.count++; i > opened + 1; --i) {
+      family.children[i] = family.children[i - 1];
+      family.areas[i] = family.areas[i - 1];
+    }
+    set(opened, first);
+    set(opened + 1, first + 1);
+    opened = static_cast<int>(std::max_element(family.areas, family.areas + family.count) - family.areas);
+    if (!(family.areas[opened] >= 0)) break;
   }
+  return family;
 }
 
 void set_box(WideNode& wide, int i, const BinaryNode& box) {
@@ -33,77 +61,171 @@ void set_box(WideNode& wide, int i, const BinaryNode& box) {
   wide.upper_z[i] = box.upper[2];
 }
 
-class Collapser {
-public:
-  explicit Collapser(const BinaryTree& tree) : tree_(tree) {}
+// Nodes and blocks in depth-first order: a node, the blocks of its leaves, then child by child what lies
+// below.
+struct WideList {
+  Column<WideNode> nodes;
+  std::array<Column<std::int32_t>, max_groups> slots;
 
-  WideTree collapse() {
-    if (tree_.nodes.empty()) return {};
-    const BinaryNode& root = tree_.nodes[0];
-    wide_.bounds = {{root.lower[0], root.lower[1], root.lower[2]},
-                    {root.upper[0], root.upper[1], root.upper[2]}};
-    wide_.root = root.count != 0 ? add_leaf(0) : add_node(0);
-    return std::move(wide_);
-  }
-
-private:
-  std::uint32_t add_leaf(std::uint32_t binary) {
-    const BinaryNode& node = tree_.nodes[binary];
-    const std::uint32_t group = tree_.group_of_leaf[binary];
-    Column<std::int32_t>& slots = wide_.slots[group];
-    const std::size_t first_block = slots.size() / block_size;
-    const std::size_t blocks = (node.count + block_size - 1U) / block_size;
-    if (first_block + blocks > max_blocks)
-      throw LimitError("more than " + std::to_string(max_blocks) + " blocks of primitives");
+  std::uint32_t add_leaf(const BinaryTree& tree, std::uint32_t binary) {
+    const BinaryNode& leaf = tree.nodes[binary];
+    const std::uint32_t group = tree.group_of_leaf[binary];
+    Column<std::int32_t>& ids = slots[group];
+    const std::size_t first = ids.size();
+    const std::size_t blocks = (leaf.count + block_size - 1U) / block_size;
     for (std::size_t i = 0; i < blocks * block_size; ++i)
-      slots.push_back(i < node.count ? static_cast<std::int32_t>(tree_.order[node.first + i]) : -1);
-    return make_leaf(group, static_cast<std::uint32_t>(first_block), static_cast<std::uint32_t>(blocks));
+      ids.push_back(i < leaf.count ? static_cast<std::int32_t>(tree.order[leaf.first + i]) : -1);
+    return make_leaf(group, static_cast<std::uint32_t>(first / block_size),
+                     static_cast<std::uint32_t>(blocks));
   }
 
-  std::uint32_t add_node(std::uint32_t binary) {
-    std::uint32_t adopted[wide_children] = {binary};
-    int count = 1;
-    for (int open = 0; open >= 0 && count < wide_children;) {
-      const std::uint32_t first = tree_.nodes[adopted[open]].first;
-      for (int i = count++; i > open + 1; --i) adopted[i] = adopted[i - 1];
-      adopted[open] = first;
-      adopted[open + 1] = first + 1;
-      open = largest_inner(adopted, count);
+  // A node with its boxes and leaves; its inner children are still to come.
+  std::uint32_t add_node(const BinaryTree& tree, const Family& family) {
+    const std::size_t index = nodes.size();
+    if (index == reserved_) nodes.reserve(reserved_ = index + index / 2 + 16);
+    nodes.resize(index + 1);
+    WideNode& wide = nodes[index];
+    for (int i = 0; i < wide_children; ++i) {
+      wide.unused[i] = 0;
+      wide.child[i] = no_child;
+      if (i < family.count) {
+        const BinaryNode& node = tree.nodes[family.children[i]];
+        set_box(wide, i, node);
+        if (node.count != 0) wide.child[i] = add_leaf(tree, family.children[i]);
+      } else {
+        wide.lower_x[i] = wide.lower_y[i] = wide.lower_z[i] = infinity;
+        wide.upper_x[i] = wide.upper_y[i] = wide.upper_z[i] = -infinity;
+      }
     }
-    const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
-    if (index % 1024 == 0) wide_.nodes.reserve(index + index / 2 + 1024);
-    wide_.nodes.resize(index + 1);
-    make_empty(wide_.nodes[index]);
-    for (int i = 0; i < count; ++i) {
-      set_box(wide_.nodes[index], i, tree_.nodes[adopted[i]]);
-      if (tree_.nodes[adopted[i]].count != 0) wide_.nodes[index].child[i] = add_leaf(adopted[i]);
-    }
-    for (int i = 0; i < count; ++i) {
-      if (tree_.nodes[adopted[i]].count != 0) continue;
-      const std::uint32_t child = add_node(adopted[i]);
-      wide_.nodes[index].child[i] = child;
+    return static_cast<std::uint32_t>(index);
+  }
+
+  std::uint32_t add_subtree(const BinaryTree& tree, std::uint32_t binary) {
+    const Family family = adopt(tree, binary);
+    const std::uint32_t index = add_node(tree, family);
+    for (int i = 0; i < family.count; ++i) {
+      if (tree.nodes[family.children[i]].count != 0) continue;
+      const std::uint32_t child = add_subtree(tree, family.children[i]);
+      nodes[index].child[i] = child;
     }
     return index;
   }
 
-  int largest_inner(const std::uint32_t* adopted, int count) const {
-    int largest = -1;
-    float largest_area = -1;
-    for (int i = 0; i < count; ++i) {
-      const BinaryNode& node = tree_.nodes[adopted[i]];
-      if (node.count != 0 || !(half_area(node) > largest_area)) continue;
-      largest = i;
-      largest_area = half_area(node);
+private:
+  std::size_t reserved_ = 0;
+};
+
+// A whole subtree on its own, or one node near the root; and where it goes in the whole.
+struct Part {
+  std::uint32_t binary = 0;
+  bool one_node = false;
+  std::size_t below[wide_children] = {}; // of one node: which parts its inner children are
+  WideList list;
+  std::size_t first_node = 0;
+  std::size_t first_block[max_groups] = {};
+};
+
+class Collapser {
+public:
+  Collapser(const BinaryTree& tree, int threads) : tree_(tree), threads_(threads) {}
+
+  WideTree collapse() {
+    const BinaryNode& root = tree_.nodes[0];
+    wide_.bounds = {{root.lower[0], root.lower[1], root.lower[2]},
+                    {root.upper[0], root.upper[1], root.upper[2]}};
+    if (root.count != 0) {
+      WideList leaf;
+      wide_.root = leaf.add_leaf(tree_, 0);
+      wide_.slots = std::move(leaf.slots);
+      return std::move(wide_);
     }
-    return largest;
+    const std::size_t first_whole = cut();
+    TaskFailure failure;
+    run_tasks(threads_, failure, [&] {
+      for (std::size_t i = first_whole; i < parts_.size(); ++i)
+        spawn(failure, [this, part = &parts_[i]] { part->list.add_subtree(tree_, part->binary); });
+    });
+    wide_.root = place(0);
+    make_room();
+    run_tasks(threads_, failure, [&] {
+      for (const Part& part : parts_) spawn(failure, [this, from = &part] { copy(*from); });
+    });
+    return std::move(wide_);
+  }
+
+private:
+  // Expands nodes breadth first from the root until what lies below makes enough parts. Returns the number of
+  // the first part that is a whole subtree.
+  std::size_t cut() {
+    parts_.emplace_back();
+    std::size_t next = 0;
+    for (; next < parts_.size() && parts_.size() - next < enough_parts; ++next) {
+      Part& part = parts_[next];
+      const Family family = adopt(tree_, part.binary);
+      part.one_node = true;
+      part.list.add_node(tree_, family);
+      for (int i = 0; i < family.count; ++i) {
+        if (tree_.nodes[family.children[i]].count != 0) continue;
+        part.below[i] = parts_.size();
+        parts_.emplace_back().binary = family.children[i];
+      }
+    }
+    return next;
+  }
+
+  std::uint32_t place(std::size_t index) {
+    Part& part = parts_[index];
+    part.first_node = node_count_;
+    node_count_ += part.list.nodes.size();
+    for (std::size_t group = 0; group < max_groups; ++group) {
+      part.first_block[group] = block_counts_[group];
+      block_counts_[group] += part.list.slots[group].size() / block_size;
+    }
+    for (int i = 0; part.one_node && i < wide_children; ++i)
+      if (part.below[i] != 0) part.list.nodes[0].child[i] = place(part.below[i]);
+    return static_cast<std::uint32_t>(part.first_node);
+  }
+
+  void make_room() {
+    wide_.nodes.resize(node_count_);
+    for (std::size_t group = 0; group < max_groups; ++group) {
+      if (block_counts_[group] > max_blocks)
+        throw LimitError("too many primitives for one tree: more than " + std::to_string(max_blocks) +
+                         " blocks");
+      wide_.slots[group].resize(block_counts_[group] * block_size);
+    }
+  }
+
+  void copy(const Part& part) {
+    for (std::size_t n = 0; n < part.list.nodes.size(); ++n) {
+      WideNode& node = wide_.nodes[part.first_node + n];
+      node = part.list.nodes[n];
+      for (std::uint32_t& child : node.child) {
+        if (child == no_child) continue;
+        if (is_leaf(child))
+          child += static_cast<std::uint32_t>(part.first_block[leaf_group(child)]);
+        else if (!part.one_node)
+          child += static_cast<std::uint32_t>(part.first_node);
+      }
+    }
+    for (std::size_t group = 0; group < max_groups; ++group)
+      std::copy(part.list.slots[group].begin(), part.list.slots[group].end(),
+                wide_.slots[group].begin() + part.first_block[group] * block_size);
   }
 
   const BinaryTree& tree_;
+  int threads_;
+  std::deque<Part> parts_;
+  std::size_t node_count_ = 0;
+  std::size_t block_counts_[max_groups] = {};
   WideTree wide_;
 };
 
 } // namespace
 
-WideTree collapse(const BinaryTree& tree, const BuildSettings&) { return Collapser(tree).collapse(); }
+WideTree collapse(const BinaryTree& tree, const BuildSettings& settings) {
+  if (tree.nodes.empty()) return {};
+  return Collapser(tree, settings.threads).collapse();
+}
 
 } // namespace fastrt

@@ -93,10 +93,13 @@ void move_to_sides(const BuildContext& context, const BuildRange& range, std::si
   const BinMapping mapping(range.centroids);
   std::size_t next[2] = {sides.next[0], sides.next[1]};
   for (std::size_t i = begin; i < end; ++i) {
-    const LaneBox box = load(from[i]);
+    const __m128 lower_and_id = _mm_load_ps(from[i].lower), upper_and_group = _mm_load_ps(from[i].upper);
+    const LaneBox box = clear_fourth({lower_and_id, upper_and_group});
     const __m128 centroid = doubled_centroid(box);
-    const std::size_t side = is_right(mapping(centroid), split);
-    to[next[side]++] = from[i];
+    const std::size_t side = is_right(mapping.unclamped(centroid), split);
+    PrimitiveBox& moved = to[next[side]++];
+    _mm_store_ps(moved.lower, lower_and_id);
+    _mm_store_ps(moved.upper, upper_and_group);
     bins[side]->add(box, sides.mappings[side](centroid));
   }
 }
