@@ -68,6 +68,7 @@ FASTRT_INLINE Extent<F> box_extent(const ExtentAxis& a, const float* columns, co
 struct TileView {
   TileFrame frame;
   ExtentAxis u, v, w;
+  ExtentAxis sides[4];       // inner normals of the planes through the origin and the sides of the batch's rectangle
   TileGroups groups;
   float x0, x1, y0, y1, far; // around all groups
 };
@@ -80,12 +81,37 @@ FASTRT_INLINE void bound_view(TileView& view) {
   view.far = most_of(view.groups.far);
 }
 
+FASTRT_INLINE V3<float> tilted(const V3<float>& across, const V3<float>& w, float sign, float at) {
+  return {sign * (across.x - at * w.x), sign * (across.y - at * w.y), sign * (across.z - at * w.z)};
+}
+
+FASTRT_INLINE void aim_view(TileView& view) {
+  const TileFrame& f = view.frame;
+  bound_view(view);
+  view.u = extent_axis(f, f.u);
+  view.v = extent_axis(f, f.v);
+  view.w = extent_axis(f, f.w);
+  view.sides[0] = extent_axis(f, tilted(f.u, f.w, 1.0F, view.x0));
+  view.sides[1] = extent_axis(f, tilted(f.u, f.w, -1.0F, view.x1));
+  view.sides[2] = extent_axis(f, tilted(f.v, f.w, 1.0F, view.y0));
+  view.sides[3] = extent_axis(f, tilted(f.v, f.w, -1.0F, view.y1));
+}
+
 // A node's children in the batch's projection; bits: those that the batch can meet.
 struct ChildRectangles {
   alignas(32) float x0[wide_children], x1[wide_children], y0[wide_children], y1[wide_children],
       near[wide_children];
   std::uint32_t bits;
 };
+
+// Boxes that reach behind the origin have no rectangle; the four sides still tell which of them the batch can't meet.
+FASTRT_INLINE std::uint32_t within_sides(const TileView& view, const float* columns) {
+  using N = Floats<node_lanes>;
+  const N padding(4.0F * view.frame.padding);
+  MaskOf<N> within = N(0.0F) <= box_extent(view.sides[0], columns, padding).high;
+  for (int i = 1; i < 4; ++i) within = within & (N(0.0F) <= box_extent(view.sides[i], columns, padding).high);
+  return to_bits(within);
+}
 
 FASTRT_INLINE void project_children(const TileView& view, const WideNode& node, ChildRectangles& out) {
   using N = Floats<node_lanes>;
@@ -99,7 +125,9 @@ FASTRT_INLINE void project_children(const TileView& view, const WideNode& node, 
     const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
     const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
                           (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
-    out.bits |= to_bits(met) << half;
+    std::uint32_t bits = to_bits(met);
+    if (view.frame.perspective && (to_bits(w.low <= N(0.0F)) & bits) != 0) bits &= within_sides(view, columns);
+    out.bits |= bits << half;
     r.x0.store_aligned(out.x0 + half);
     r.x1.store_aligned(out.x1 + half);
     r.y0.store_aligned(out.y0 + half);
@@ -146,14 +174,24 @@ FASTRT_INLINE Rectangles<Floats<block_size>> project_triangles(const TileView& v
   if (!view.frame.perspective)
     return {min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
             max(ay, max(by, cy)) + padding, near};
-  const B one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin);
+  const B one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin), zero(0.0F);
+  const MaskOf<B> around = near <= zero;
+  MaskOf<B> within = zero <= zero;
+  if (to_bits(around) != 0) {
+    const auto meets = [&](const B& p, const B& q, const B& r) {
+      return max(p, max(q, r)) >= negate(B(4.0F) * padding);
+    };
+    const B vx0(view.x0), vx1(view.x1), vy0(view.y0), vy1(view.y1);
+    within = meets(ax - vx0 * aw, bx - vx0 * bw, cx - vx0 * cw) & meets(vx1 * aw - ax, vx1 * bw - bx, vx1 * cw - cx) &
+             meets(ay - vy0 * aw, by - vy0 * bw, cy - vy0 * cw) & meets(vy1 * aw - ay, vy1 * bw - by, vy1 * cw - cy);
+  }
   const B ai = one / aw, bi = one / bw, ci = one / cw;
   ax = ax * ai, bx = bx * bi, cx = cx * ci, ay = ay * ai, by = by * bi, cy = cy * ci;
-  const MaskOf<B> around = near <= B(0.0F);
   const B x0 = min(ax, min(bx, cx)), x1 = max(ax, max(bx, cx)), y0 = min(ay, min(by, cy)),
           y1 = max(ay, max(by, cy));
   const B mx = ((abs(x0) + abs(x1)) + one) * margin, my = ((abs(y0) + abs(y1)) + one) * margin;
-  return {select(around, negate(everywhere), x0 - mx), select(around, everywhere, x1 + mx),
+  const B outside = select(within, negate(everywhere), everywhere);
+  return {select(around, outside, x0 - mx), select(around, everywhere, x1 + mx),
           select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near};
 }
 

@@ -245,13 +245,10 @@ static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch
   TileTraversal<any> tile{scene, rays, hits, live, {}};
   tile.view.frame = make_tile_frame(rays, live);
   if (!project_batch(scene, rays, live, tile.view.frame, tile.view.groups)) return false;
-  tile.view.u = extent_axis(tile.view.frame, tile.view.frame.u);
-  tile.view.v = extent_axis(tile.view.frame, tile.view.frame.v);
-  tile.view.w = extent_axis(tile.view.frame, tile.view.frame.w);
   for (int g = 0; g < batch_groups; ++g)
     tile.view.groups.far[g] =
         live.bits[g] == 0 ? -__builtin_inff() : group_far(hits, tile.view.groups, live.bits[g], g);
-  bound_view(tile.view);
+  aim_view(tile.view);
   traverse(tile);
   return true;
 }
