@@ -3,8 +3,7 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
-build_packages=(g++ cmake ninja-build pkg-config libglm-dev libxsimd-dev libopenimageio-dev libcli11-dev
-  libdeflate-dev)
+build_packages=(g++ cmake ninja-build pkg-config libglm-dev libxsimd-dev libopenimageio-dev libcli11-dev)
 test_packages=(libgtest-dev libbenchmark-dev binutils)
 
 say() { echo "$*" >&2; }
