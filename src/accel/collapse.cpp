@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/accel/collapse_plan.hpp"
 #include "src/accel/parallel.hpp"
 #include "src/accel/tree.hpp"
 
@@ -15,43 +16,6 @@ namespace {
 // So many parts are collapsed at the same time, at most. The number of threads has no say in it.
 constexpr std::size_t enough_parts = 128;
 
-// A wide node still made of binary ones.
-struct Family {
-  std::uint32_t children[wide_children];
-  float areas[wide_children]; // -1 for leaves: they can't be opened
-  int count = 0;
-};
-
-float half_area(const BinaryNode& node) {
-  const float x = node.upper[0] - node.lower[0];
-  const float y = node.upper[1] - node.lower[1];
-  const float z = node.upper[2] - node.lower[2];
-  return x * y + y * z + z * x;
-}
-
-// Opens the largest child that is no leaf until there is no room or no such child.
-Family adopt(const BinaryTree& tree, std::uint32_t parent) {
-  Family family;
-  const auto set = [&](int i, std::uint32_t child) {
-    family.children[i] = child;
-    family.areas[i] = tree.nodes[child].count != 0 ? -1.0F : half_area(tree.nodes[child]);
-  };
-  set(0, parent);
-  family.count = 1;
-  for (int opened = 0; family.count < wide_children;) {
-    const std::uint32_t first = tree.nodes[family.children[opened]].first;
-    for (int i = family.count++; i > opened + 1; --i) {
-      family.children[i] = family.children[i - 1];
-      family.areas[i] = family.areas[i - 1];
-    }
-    set(opened, first);
-    set(opened + 1, first + 1);
-    opened = static_cast<int>(std::max_element(family.areas, family.areas + family.count) - family.areas);
-    if (!(family.areas[opened] >= 0)) break;
-  }
-  return family;
-}
-
 void set_box(WideNode& wide, int i, const BinaryNode& box) {
   wide.lower_x[i] = box.lower[0];
   wide.upper_x[i] = box.upper[0];
@@ -63,24 +27,30 @@ void set_box(WideNode& wide, int i, const BinaryNode& box) {
 
 // Nodes and blocks in depth-first order: a node, the blocks of its leaves, then child by child what lies
 // below.
-struct WideList {
+class WideList {
+public:
   Column<WideNode> nodes;
   std::array<Column<std::int32_t>, max_groups> slots;
 
   std::uint32_t add_leaf(const BinaryTree& tree, std::uint32_t binary) {
-    const BinaryNode& leaf = tree.nodes[binary];
-    const std::uint32_t group = tree.group_of_leaf[binary];
-    Column<std::int32_t>& ids = slots[group];
-    const std::size_t first = ids.size();
-    const std::size_t blocks = (leaf.count + block_size - 1U) / block_size;
-    for (std::size_t i = 0; i < blocks * block_size; ++i)
-      ids.push_back(i < leaf.count ? static_cast<std::int32_t>(tree.order[leaf.first + i]) : -1);
-    return make_leaf(group, static_cast<std::uint32_t>(first / block_size),
-                     static_cast<std::uint32_t>(blocks));
+    // All that lies below the node is neighbours in the order.
+    std::uint32_t first = binary, last = binary;
+    while (tree.nodes[first].count == 0) first = tree.nodes[first].first;
+    while (tree.nodes[last].count == 0) last = tree.nodes[last].first + 1;
+    const std::uint32_t* ids = tree.order.data() + tree.nodes[first].first;
+    const std::size_t count = tree.nodes[last].first + tree.nodes[last].count - tree.nodes[first].first;
+    const std::uint32_t group = tree.group_of_leaf[first];
+    Column<std::int32_t>& blocks = slots[group];
+    const std::size_t first_block = blocks.size() / block_size;
+    const std::size_t block_count = (count + block_size - 1) / block_size;
+    for (std::size_t i = 0; i < block_count * block_size; ++i)
+      blocks.push_back(i < count ? static_cast<std::int32_t>(ids[i]) : -1);
+    return make_leaf(group, static_cast<std::uint32_t>(first_block), static_cast<std::uint32_t>(block_count));
   }
 
   // A node with its boxes and leaves; its inner children are still to come.
-  std::uint32_t add_node(const BinaryTree& tree, const Family& family) {
+  std::uint32_t add_node(const BinaryTree& tree, const CollapsePlan& plan, const std::uint32_t* children,
+                         int count) {
     const std::size_t index = nodes.size();
     if (index == reserved_) nodes.reserve(reserved_ = index + index / 2 + 16);
     nodes.resize(index + 1);
@@ -88,10 +58,9 @@ struct WideList {
     for (int i = 0; i < wide_children; ++i) {
       wide.unused[i] = 0;
       wide.child[i] = no_child;
-      if (i < family.count) {
-        const BinaryNode& node = tree.nodes[family.children[i]];
-        set_box(wide, i, node);
-        if (node.count != 0) wide.child[i] = add_leaf(tree, family.children[i]);
+      if (i < count) {
+        set_box(wide, i, tree.nodes[children[i]]);
+        if (plan.is_leaf(children[i])) wide.child[i] = add_leaf(tree, children[i]);
       } else {
         wide.lower_x[i] = wide.lower_y[i] = wide.lower_z[i] = infinity;
         wide.upper_x[i] = wide.upper_y[i] = wide.upper_z[i] = -infinity;
@@ -100,12 +69,13 @@ struct WideList {
     return static_cast<std::uint32_t>(index);
   }
 
-  std::uint32_t add_subtree(const BinaryTree& tree, std::uint32_t binary) {
-    const Family family = adopt(tree, binary);
-    const std::uint32_t index = add_node(tree, family);
-    for (int i = 0; i < family.count; ++i) {
-      if (tree.nodes[family.children[i]].count != 0) continue;
-      const std::uint32_t child = add_subtree(tree, family.children[i]);
+  std::uint32_t add_subtree(const BinaryTree& tree, const CollapsePlan& plan, std::uint32_t binary) {
+    std::uint32_t children[wide_children];
+    const int count = plan.children_of(binary, children);
+    const std::uint32_t index = add_node(tree, plan, children, count);
+    for (int i = 0; i < count; ++i) {
+      if (plan.is_leaf(children[i])) continue;
+      const std::uint32_t child = add_subtree(tree, plan, children[i]);
       nodes[index].child[i] = child;
     }
     return index;
@@ -127,13 +97,13 @@ struct Part {
 
 class Collapser {
 public:
-  Collapser(const BinaryTree& tree, int threads) : tree_(tree), threads_(threads) {}
+  Collapser(const BinaryTree& tree, int threads) : tree_(tree), threads_(threads), plan_(tree, threads) {}
 
   WideTree collapse() {
     const BinaryNode& root = tree_.nodes[0];
     wide_.bounds = {{root.lower[0], root.lower[1], root.lower[2]},
                     {root.upper[0], root.upper[1], root.upper[2]}};
-    if (root.count != 0) {
+    if (plan_.is_leaf(0)) {
       WideList leaf;
       wide_.root = leaf.add_leaf(tree_, 0);
       wide_.slots = std::move(leaf.slots);
@@ -143,7 +113,7 @@ public:
     TaskFailure failure;
     run_tasks(threads_, failure, [&] {
       for (std::size_t i = first_whole; i < parts_.size(); ++i)
-        spawn(failure, [this, part = &parts_[i]] { part->list.add_subtree(tree_, part->binary); });
+        spawn(failure, [this, part = &parts_[i]] { part->list.add_subtree(tree_, plan_, part->binary); });
     });
     wide_.root = place(0);
     make_room();
@@ -161,13 +131,14 @@ private:
     std::size_t next = 0;
     for (; next < parts_.size() && parts_.size() - next < enough_parts; ++next) {
       Part& part = parts_[next];
-      const Family family = adopt(tree_, part.binary);
+      std::uint32_t children[wide_children];
+      const int count = plan_.children_of(part.binary, children);
       part.one_node = true;
-      part.list.add_node(tree_, family);
-      for (int i = 0; i < family.count; ++i) {
-        if (tree_.nodes[family.children[i]].count != 0) continue;
+      part.list.add_node(tree_, plan_, children, count);
+      for (int i = 0; i < count; ++i) {
+        if (plan_.is_leaf(children[i])) continue;
         part.below[i] = parts_.size();
-        parts_.emplace_back().binary = family.children[i];
+        parts_.emplace_back().binary = children[i];
       }
     }
     return next;
@@ -215,6 +186,7 @@ private:
 
   const BinaryTree& tree_;
   int threads_;
+  CollapsePlan plan_;
   std::deque<Part> parts_;
   std::size_t node_count_ = 0;
   std::size_t block_counts_[max_groups] = {};

@@ -8,7 +8,7 @@ namespace fastrt {
 namespace {
 
 constexpr std::size_t max_leaf_size = std::size_t{block_size} * max_leaf_blocks;
-constexpr float node_cost = 0.5F; // of visiting a binary node, in block tests
+constexpr float node_cost = 0.25F; // of visiting a binary node, in block tests
 constexpr int index_bits = 5;
 static_assert(small_range <= 1U << index_bits && small_range % 4 == 0);
 

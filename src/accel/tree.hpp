@@ -58,7 +58,8 @@ struct WideTree {
   Aabb bounds;
 };
 
-// Collapses a binary tree so that each wide node adopts the grandchildren with the largest surface first.
+// Collapses a binary tree to the wide one of least sah_cost that can be made of its boxes. A leaf may take in
+// several leaves of the binary tree.
 // Throws LimitError for more than max_blocks blocks of a group.
 WideTree collapse(const BinaryTree& tree, const BuildSettings& settings);
 
