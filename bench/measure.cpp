@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace fastrt::bench {
+namespace {
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// What reading the clock itself adds between two readings.
+double clock_cost() {
+  static const double cost = [] {
+    std::vector<double> values(1001);
+    for (double& value : values) {
+      const double start = thread_seconds();
+      value = thread_seconds() - start;
+    }
+    return spread_of(values).median;
+  }();
+  return cost;
+}
+
+std::size_t chunk_count(const RaySet& set) {
+  return (set.batches.size() + chunk_batches - 1) / chunk_batches;
+}
+
+std::size_t batches_in_chunk(const RaySet& set, std::size_t chunk) {
+  return std::min(chunk_batches, set.batches.size() - chunk * chunk_batches);
+}
+
+std::size_t rays_in_chunk(const RaySet& set, std::size_t chunk) {
+  std::size_t rays = 0;
+  for (std::size_t i = 0; i < batches_in_chunk(set, chunk); ++i)
+    rays += static_cast<std::size_t>(set.batches[chunk * chunk_batches + i].count);
+  return rays;
+}
+
+} // namespace
+
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  const double median = values.size() % 2 != 0 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+  return {median, values.front(), values.back()};
+}
+
+double rays_per_second(const Contender& contender, const RaySet& set, int threads, std::size_t step) {
+  const std::size_t chunks = (chunk_count(set) + step - 1) / step;
+  const double cost = clock_cost();
+  double rate = 0;
+#pragma omp parallel num_threads(threads) reduction(+ : rate)
+  {
+    const std::unique_ptr<Worker> worker = contender.make_worker(set.question);
+    double busy = 0;
+    std::size_t rays = 0;
+#pragma omp for schedule(dynamic)
+    for (std::size_t i = 0; i < chunks; ++i) {
+      const std::size_t chunk = i * step;
+      worker->load(&set.batches[chunk * chunk_batches], batches_in_chunk(set, chunk));
+      const double start = thread_seconds();
+      worker->trace();
+      busy += thread_seconds() - start - cost;
+      rays += rays_in_chunk(set, chunk);
+    }
+    if (busy > 0) rate += static_cast<double>(rays) / busy;
+  }
+  return rate;
+}
+
+std::size_t step_for(const Contender& contender, const RaySet& set, const RoundSettings& settings) {
+  const std::size_t chunks = chunk_count(set);
+  const std::size_t coarse = std::max<std::size_t>(1, chunks / 16);
+  const double rate = rays_per_second(contender, set, settings.threads, coarse);
+  const double wanted = static_cast<double>(set.ray_count) / (rate * settings.seconds);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1, coarse);
+}
+
+std::vector<std::vector<double>> run_rounds(std::span<const Contender> contenders, const RaySet& set,
+                                            const RoundSettings& settings, std::size_t step) {
+  std::vector<std::vector<double>> rates(contenders.size());
+  for (int round = 0; round < settings.rounds; ++round)
+    for (std::size_t i = 0; i < contenders.size(); ++i)
+      rates[i].push_back(rays_per_second(contenders[i], set, settings.threads, step));
+  return rates;
+}
+
+Disagreement compare_answers(const Contender& a, const Contender& b, const RaySet& set) {
+  Disagreement result;
+  const auto worker_a = a.make_worker(set.question), worker_b = b.make_worker(set.question);
+  std::vector<std::int32_t> answers_a, answers_b;
+  for (std::size_t chunk = 0; chunk < chunk_count(set); ++chunk) {
+    for (Worker* worker : {worker_a.get(), worker_b.get()}) {
+      worker->load(&set.batches[chunk * chunk_batches], batches_in_chunk(set, chunk));
+      worker->trace();
+    }
+    worker_a->answers(answers_a);
+    worker_b->answers(answers_b);
+    for (std::size_t i = 0; i < answers_a.size(); ++i) {
+      const bool hit_a = answers_a[i] >= 0, hit_b = answers_b[i] >= 0;
+      result.hits += hit_a;
+      result.hit_or_miss += hit_a != hit_b;
+      result.primitive += hit_a && hit_b && answers_a[i] != answers_b[i];
+    }
+    result.rays += answers_a.size();
+  }
+  return result;
+}
+
+} // namespace fastrt::bench

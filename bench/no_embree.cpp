@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands in for embree_scene.cpp where Embree is not installed.
+#include "bench/embree_scene.hpp"
+
+namespace fastrt::bench {
+
+std::vector<EmbreeMode> embree_modes() { return {}; }
+std::string name_of(const EmbreeMode&) { return {}; }
+std::unique_ptr<EmbreeScene> build_embree_scene(const Scene&, bool, int) { return nullptr; }
+std::string embree_version() { return {}; }
+
+} // namespace fastrt::bench
