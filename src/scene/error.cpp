@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/printable.hpp"
+
 #include <fastrt/error.hpp>
 
 #include <cstdio>
@@ -7,10 +9,7 @@
 
 namespace fastrt {
 
-namespace {
-
-// A name out of a file may hold anything; a terminal must not obey it and the message must stay one line.
-std::string without_control_characters(const std::string& text) {
+std::string printable(const std::string& text) {
   static constexpr char digits[] = "0123456789abcdef";
   std::string shown;
   shown.reserve(text.size());
@@ -27,6 +26,8 @@ std::string without_control_characters(const std::string& text) {
   return shown;
 }
 
+namespace {
+
 std::string located(const std::string& file, std::size_t line, std::size_t column,
                     const std::string& message) {
   std::string text = file;
@@ -36,7 +37,7 @@ std::string located(const std::string& file, std::size_t line, std::size_t colum
     text += std::to_string(number);
   }
   if (!text.empty()) text += ": ";
-  return without_control_characters(text + message);
+  return printable(text + message);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/printable.hpp"
 #include "src/scene/scene_check.hpp"
 
 #include <fastrt/error.hpp>
@@ -52,8 +53,9 @@ void check_materials(const SceneDesc& desc) {
     const std::string fault = fault_of(desc.materials[i]);
     if (fault.empty()) continue;
     const std::string& name = desc.materials[i].name;
-    const std::string which = name.empty() ? std::to_string(i) : "'" + name + "'";
-    throw InputError("", 0, 0, "material " + which + ": " + fault);
+    std::string which = std::to_string(i);
+    if (!name.empty()) which.append(" ('").append(printable(name)).append("')");
+    throw InputError("material " + which + ": " + fault);
   }
 }
 

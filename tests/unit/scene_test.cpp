@@ -151,7 +151,7 @@ const Fault look_faults[] = {
     {"IorZero", [](SceneDesc& d) { d.materials[0].ior = 0; }, "the index of refraction"},
     {"IorInfinite", [](SceneDesc& d) { d.materials[0].ior = infinity; }, "the index of refraction"},
     {"Name", [](SceneDesc& d) { d.materials[0].name = "a\n\x1b[31m", d.materials[0].ior = 0; },
-     R"('a\x0a\x1b[31m')"},
+     R"(material 0 ('a\x0a\x1b[31m'))"},
     {"LightPosition", [](SceneDesc& d) { d.lights[0].position.x = nan; }, "light 0: the position"},
     {"LightIntensity", [](SceneDesc& d) { d.lights[0].intensity.x = nan; }, "light 0: the intensity"},
     {"LightDirection", [](SceneDesc& d) { d.lights[1].direction.y = infinity; },

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one function of the module fastrt_oiio, in plain types: OpenImageIO costs 0.2 s and 129 MB to load, so
+// the library finds it with dlopen when a picture needs it, and nothing else knows of it.
+#pragma once
+
+#include <cstddef>
+
+namespace fastrt {
+
+inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
+inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_1"; // the number changes with the types
+
+struct OiioPicture {
+  const char* format; // an extension without the dot
+  const void* pixels; // 3 * width * height values, rows from the top
+  int is_float;       // floats, otherwise bytes
+  int width, height;
+  int threads;
+};
+
+struct OiioResult {
+  unsigned char* bytes; // made by malloc; the caller frees it
+  std::size_t count;
+  char error[256];
+};
+
+// Returns 1, or 0 with `error` set. Throws nothing.
+using OiioEncode = int(const OiioPicture* picture, OiioResult* result);
+
+} // namespace fastrt

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a picture with OpenImageIO, for image_formats_test: a module, so that the test programs themselves
+// need not link it.
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstddef>
+
+// Returns the number of values of the picture in `file`, 0 if it can't be read; fills at most `capacity` of
+// them. Bytes come as value / 255.
+extern "C" std::size_t read_picture(const char* file, float* values, std::size_t capacity, int* width,
+                                    int* height) {
+  const auto input = OIIO::ImageInput::open(file);
+  if (!input) return 0;
+  const OIIO::ImageSpec& spec = input->spec();
+  *width = spec.width;
+  *height = spec.height;
+  const std::size_t count = spec.image_pixels() * static_cast<std::size_t>(spec.nchannels);
+  if (count > capacity) return count;
+  return input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values) ? count : 0;
+}
