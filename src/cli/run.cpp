@@ -15,8 +15,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -69,7 +67,8 @@ void check_image_size(const Options& options) {
 fs::path choose_output(const Options& options) {
   if (options.output == "none") return {};
   fs::path path = options.output;
-  if (path.empty()) path = fs::path(options.scene).stem().native() + ".png";
+  if (path.empty()) path = fs::path(options.scene).stem();
+  if (options.output.empty()) path += path.empty() ? "scene.png" : ".png";
   std::error_code error;
   if (fs::equivalent(path, options.scene, error)) {
     throw UsageError("the output '" + path.string() + "' is the scene itself");
@@ -110,23 +109,17 @@ RenderSettings render_settings(const Options& options, int threads) {
   return settings;
 }
 
-// A rendering that shows how far it is, and remembers it.
+// A rendering that shows how far it is, and ends the program if a signal cut it short.
 template <class Render>
-Frame watched(const Options& options, const char* label, RenderSettings settings, std::atomic<double>& share,
-              Render render_with) {
+Frame watched(const Options& options, const char* label, RenderSettings settings, Render render_with) {
   ProgressBar bar(options.show_progress && !options.quiet, label);
   settings.progress = [&](double done) {
-    share.store(done, std::memory_order_relaxed);
+    note_progress(done);
     bar.update(done);
   };
-  return render_with(settings);
-}
-
-int report_interrupted(double share) {
-  const int signal = signal_received();
-  print_error(std::string(signal == SIGINT ? "interrupted" : "terminated") + " at " +
-              std::to_string(static_cast<int>(share * 100)) + " % of the rendering; no picture is written");
-  return 128 + signal;
+  Frame frame = render_with(settings);
+  if (!frame.complete) end_by_signal();
+  return frame;
 }
 
 // to_stderr: when the picture itself goes to stdout.
@@ -220,21 +213,18 @@ int run(const Options& options, Clock::time_point start) {
   stats.build_seconds = seconds_since(phase_start);
 
   const RenderSettings settings = render_settings(options, stats.threads);
-  std::atomic<double> share{0};
   enter_phase(Phase::rendering);
   phase_start = Clock::now();
-  const Frame frame = watched(options, "rendering", settings, share,
+  const Frame frame = watched(options, "rendering", settings,
                               [&](const RenderSettings& with) { return render(tracer, camera, with); });
   stats.render_seconds = seconds_since(phase_start);
-  if (!frame.complete) return report_interrupted(share);
   describe(options, tracer, frame, stats);
 
   if (options.verify) {
     phase_start = Clock::now();
-    const Frame expected = watched(options, "verifying", settings, share, [&](const RenderSettings& with) {
+    const Frame expected = watched(options, "verifying", settings, [&](const RenderSettings& with) {
       return render_reference(tracer.scene(), camera, with);
     });
-    if (!expected.complete) return report_interrupted(share);
     stats.verify = compare(frame, expected);
     stats.verify_seconds = seconds_since(phase_start);
   }

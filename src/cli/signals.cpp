@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <cstring>
 
 namespace fastrt::cli {
 namespace {
@@ -17,18 +16,37 @@ constexpr int grace_microseconds = 350'000;
 std::atomic<Phase> current_phase{Phase::idle};
 std::atomic<bool> cancel_flag{false};
 std::atomic<int> first_signal{0};
+std::atomic<int> percent_done{0};
 static_assert(std::atomic<Phase>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
               std::atomic<bool>::is_always_lock_free);
 
 // The functions below run inside a signal handler: only what is async-signal-safe.
 
+void append(char*& end, const char* text) {
+  while (*text != '\0') *end++ = *text++;
+}
+
+// number: 0..999.
+void append(char*& end, int number) {
+  if (number >= 100) *end++ = static_cast<char>('0' + number / 100);
+  if (number >= 10) *end++ = static_cast<char>('0' + number / 10 % 10);
+  *end++ = static_cast<char>('0' + number % 10);
+}
+
 [[noreturn]] void end_now(int signal) {
-  // On a terminal, over a progress bar.
-  const char* erase = "\r\x1b[K";
-  const char* line = signal == SIGINT ? "fastrt: error: interrupted\n" : "fastrt: error: terminated\n";
-  bool said = isatty(STDERR_FILENO) == 0 || write(STDERR_FILENO, erase, std::strlen(erase)) >= 0;
-  said = said && write(STDERR_FILENO, line, std::strlen(line)) >= 0;
+  char line[160];
+  char* end = line;
+  if (isatty(STDERR_FILENO) == 1) append(end, "\r\x1b[K"); // over a progress bar
+  append(end, "fastrt: error: ");
+  append(end, signal == SIGINT ? "interrupted" : "terminated");
+  if (current_phase.load() == Phase::rendering) {
+    append(end, " at ");
+    append(end, percent_done.load());
+    append(end, " % of the rendering; no picture is written");
+  }
+  append(end, "\n");
   // Whoever can't be told is still to be left.
+  const ssize_t said = write(STDERR_FILENO, line, static_cast<std::size_t>(end - line));
   static_cast<void>(said);
   _exit(128 + signal);
 }
@@ -66,10 +84,18 @@ void install_signal_handlers() {
 void enter_phase(Phase phase) noexcept {
   current_phase.store(phase);
   // One that came a moment before, when it could only set the flag.
-  if (phase == Phase::idle && first_signal.load() != 0) end_now(first_signal.load());
+  if (phase == Phase::idle && first_signal.load() != 0) end_by_signal();
 }
 
 const std::atomic<bool>& cancelled() noexcept { return cancel_flag; }
+
+void note_progress(double share) noexcept { percent_done.store(static_cast<int>(share * 100)); }
+
+void end_by_signal() noexcept {
+  const itimerval never{};
+  setitimer(ITIMER_REAL, &never, nullptr);
+  end_now(first_signal.load());
+}
 
 int signal_received() noexcept { return first_signal.load(); }
 

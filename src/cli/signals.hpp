@@ -21,7 +21,14 @@ void enter_phase(Phase phase) noexcept;
 // For RenderSettings::cancelled.
 const std::atomic<bool>& cancelled() noexcept;
 
+// The share of the rendering that is done, for the last words.
+void note_progress(double share) noexcept;
+
 // The signal that came, or 0.
 int signal_received() noexcept;
+
+// Ends the program for the signal that came: one line on stderr, exit code 128 + signal. Nothing is cleaned
+// up, which could take long.
+[[noreturn]] void end_by_signal() noexcept;
 
 } // namespace fastrt::cli
