@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same question put to brute force, to the kernels and to a tracer.
+#pragma once
+
+#include "src/reference/hit_finder.hpp"
+#include "src/trace/tracer_parts.hpp"
+#include "tests/equivalence/isas.hpp"
+#include "tests/equivalence/rays.hpp"
+
+#include <fastrt/tracer.hpp>
+
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fastrt::test {
+
+using reference::Hit;
+
+// What must be answered. Of a ray that sees a triangle from its very edge t is a quotient of rounding errors
+// and may lie anywhere on the ray; no tree can promise to find such hits, so they are `open`.
+struct Answer {
+  Hit hit;
+  bool open = false;
+};
+
+// Whether the hit lies in its triangle's box, give or take the rounding of coordinates.
+inline bool lies_in_box(const Scene& scene, const Ray& ray, const Hit& hit) {
+  if (!hit.found() || static_cast<std::uint32_t>(hit.primitive) >= scene.triangle_count()) return true;
+  const auto [a, b, c] = reference::triangle_vertices(scene, static_cast<std::uint32_t>(hit.primitive));
+  float largest = reference::largest_magnitude(ray.origin);
+  for (const Vec3& vertex : {a, b, c})
+    largest = reference::max(largest, reference::largest_magnitude(vertex));
+  const double margin = 0x1p-22 * static_cast<double>(largest);
+  const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(hit.t) * glm::dvec3(ray.direction);
+  const glm::dvec3 lower = glm::dvec3(glm::min(a, glm::min(b, c))) - margin;
+  const glm::dvec3 upper = glm::dvec3(glm::max(a, glm::max(b, c))) + margin;
+  return glm::all(glm::lessThanEqual(lower, point)) && glm::all(glm::lessThanEqual(point, upper));
+}
+
+inline Answer answer_of(const Scene& scene, const Ray& ray) {
+  const Hit hit = reference::BruteForce(scene).closest(ray);
+  return {hit, !lies_in_box(scene, ray, hit)};
+}
+
+// Whether a hit is one that its primitive reports, though it need not be the closest.
+inline bool is_reported(const Scene& scene, const Ray& ray, const Hit& hit) {
+  if (!hit.found()) return same(hit, Hit{ray.t_max, 0, 0, no_primitive});
+  const reference::Intersection found =
+      reference::intersect(ray, scene, static_cast<std::uint32_t>(hit.primitive));
+  return found.hit && hit.primitive != ray.excluded &&
+         same(hit, Hit{found.t, found.u, found.v, hit.primitive});
+}
+
+// Whether a query's answers for a ray are right.
+inline bool agrees(const Scene& scene, const Ray& ray, const Answer& expected, const Hit& closest, bool any) {
+  if (expected.open) return is_reported(scene, ray, closest);
+  return same(closest, expected.hit) && any == expected.hit.found();
+}
+
+inline std::vector<Answer> answers_of(const Scene& scene, std::span<const Ray> rays) {
+  std::vector<Answer> answers;
+  answers.reserve(rays.size());
+  for (const Ray& ray : rays) answers.push_back(answer_of(scene, ray));
+  return answers;
+}
+
+// Rows that hold no ray are full of numbers that would show.
+inline void fill_batch(std::span<const Ray> rays, BatchShape shape, RayBatch& batch) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  for (int i = 0; i < batch_size; ++i) {
+    Ray ray;
+    ray.origin = ray.direction = Vec3(i % 2 == 0 ? nan : 1.0F);
+    const auto row = static_cast<std::size_t>(i);
+    if (row < rays.size()) ray = rays[row];
+    batch.origin_x[i] = ray.origin.x;
+    batch.origin_y[i] = ray.origin.y;
+    batch.origin_z[i] = ray.origin.z;
+    batch.dir_x[i] = ray.direction.x;
+    batch.dir_y[i] = ray.direction.y;
+    batch.dir_z[i] = ray.direction.z;
+    batch.t_min[i] = ray.t_min;
+    batch.t_max[i] = ray.t_max;
+    batch.exclude[i] = ray.excluded;
+  }
+  batch.count = static_cast<int>(rays.size());
+  batch.shape = shape;
+}
+
+// Straight to the kernels; one batch.
+class KernelQuery {
+public:
+  KernelQuery() : rays_(std::make_unique<RayBatch>()), hits_(std::make_unique<HitBatch>()) {}
+
+  std::vector<Hit> closest(const KernelTable& kernels, const SceneView& view, std::span<const Ray> rays,
+                           BatchShape shape) {
+    fill_batch(rays, shape, *rays_);
+    kernels.closest_hits(view.geometry, *rays_, *hits_);
+    kernels.hit_weights(view.shading, *rays_, *hits_, u_, v_);
+    std::vector<Hit> found(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = {hits_->t[i], u_[i], v_[i], hits_->primitive[i]};
+    return found;
+  }
+  std::vector<bool> any(const KernelTable& kernels, const SceneView& view, std::span<const Ray> rays,
+                        BatchShape shape) {
+    fill_batch(rays, shape, *rays_);
+    kernels.any_hits(view.geometry, *rays_, *hits_);
+    std::vector<bool> found(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = hits_->primitive[i] >= 0;
+    return found;
+  }
+
+private:
+  std::unique_ptr<RayBatch> rays_;
+  std::unique_ptr<HitBatch> hits_;
+  alignas(64) float u_[batch_size] = {};
+  alignas(64) float v_[batch_size] = {};
+};
+
+inline TracerSettings with_isa(Isa isa) {
+  TracerSettings settings;
+  settings.isa = isa;
+  settings.threads = 1;
+  return settings;
+}
+
+inline std::string words(const Ray& ray, const Hit& expected, const Hit& found) {
+  char text[512];
+  std::snprintf(
+      text, sizeof text,
+      "o (%a, %a, %a) d (%a, %a, %a) t_min %a t_max %a excluded %d: expected primitive %d t %a u %a "
+      "v %a, found primitive %d t %a u %a v %a",
+      static_cast<double>(ray.origin.x), static_cast<double>(ray.origin.y), static_cast<double>(ray.origin.z),
+      static_cast<double>(ray.direction.x), static_cast<double>(ray.direction.y),
+      static_cast<double>(ray.direction.z), static_cast<double>(ray.t_min), static_cast<double>(ray.t_max),
+      ray.excluded, expected.primitive, static_cast<double>(expected.t), static_cast<double>(expected.u),
+      static_cast<double>(expected.v), found.primitive, static_cast<double>(found.t),
+      static_cast<double>(found.u), static_cast<double>(found.v));
+  return text;
+}
+
+} // namespace fastrt::test

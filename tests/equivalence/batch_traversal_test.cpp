@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batches of every shape through the kernels of every ISA against brute force over the reference's
+// primitives: equal bits. A shape decides how a batch is traced, never what it hits.
+#include "tests/equivalence/answers.hpp"
+#include "tests/equivalence/geometry_scenes.hpp"
+#include "tests/equivalence/ray_runs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fastrt::test {
+namespace {
+
+struct Tally {
+  std::size_t rays = 0, hits = 0, open = 0;
+};
+
+class BatchTraversal : public testing::TestWithParam<NamedScene> {
+protected:
+  BatchTraversal() : tracer_(GetParam().scene, with_isa(Isa::sse42)) {}
+
+  const Scene& scene() const { return GetParam().scene; }
+
+  // The batch, cut to `count` rays, as every shape in `shapes` on every ISA.
+  void expect_same(const RayRun& run, std::size_t count, std::initializer_list<BatchShape> shapes) {
+    const std::span<const Ray> rays(run.data(), count);
+    const std::vector<Answer> answers = answers_of(scene(), rays);
+    for (const Answer& answer : answers) {
+      ++tally_.rays;
+      tally_.hits += answer.hit.found() ? 1 : 0;
+      tally_.open += answer.open ? 1 : 0;
+    }
+    for (const Isa isa : simd_isas())
+      for (const BatchShape shape : shapes) expect_same(rays, answers, isa, shape);
+  }
+
+  void expect_same(std::span<const Ray> rays, const std::vector<Answer>& answers, Isa isa, BatchShape shape) {
+    if (failures_ > 5) return;
+    const KernelTable& kernels = kernels_of(isa);
+    const std::vector<Hit> closest = query_.closest(kernels, tracer_.parts().view, rays, shape);
+    const std::vector<bool> any = query_.any(kernels, tracer_.parts().view, rays, shape);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (agrees(scene(), rays[i], answers[i], closest[i], any[i])) continue;
+      ++failures_;
+      ADD_FAILURE() << isa_word(isa) << ", shape " << static_cast<int>(shape) << ", row " << i << " of "
+                    << rays.size() << ", any " << any[i] << ": "
+                    << words(rays[i], answers[i].hit, closest[i]);
+      return;
+    }
+  }
+
+  // Batches to try: fewer where brute force takes long.
+  int rounds(int most) const {
+    return effort(std::min(most, 20000 / (static_cast<int>(scene().primitive_count()) + 20)));
+  }
+
+  void expect_hits(double share) const {
+    if (scene().primitive_count() == 0) return;
+    EXPECT_GT(static_cast<double>(tally_.hits), share * static_cast<double>(tally_.rays));
+    EXPECT_LT(static_cast<double>(tally_.open), 0.15 * static_cast<double>(tally_.rays));
+  }
+
+  Tracer tracer_;
+  KernelQuery query_;
+  Tally tally_;
+  int failures_ = 0;
+};
+
+// Mostly whole batches, and every number that could end in the middle of something.
+std::size_t any_count(Random& random) {
+  constexpr std::size_t counts[] = {1, 3, 4, 15, 16, 17, 33, 100, 240, 255};
+  return random.below(3) != 0 ? batch_size : counts[random.below(10)];
+}
+
+TEST_P(BatchTraversal, OfOneOriginFindsWhatBruteForceFinds) {
+  Random random(51);
+  for (int i = 0; i < rounds(200); ++i) {
+    RayRun run = origin_run(scene(), random);
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::common_origin, BatchShape::coherent, BatchShape::any});
+  }
+  expect_hits(0.05);
+}
+
+TEST_P(BatchTraversal, OfOneDirectionFindsWhatBruteForceFinds) {
+  Random random(52);
+  for (int i = 0; i < rounds(200); ++i) {
+    RayRun run = parallel_run(scene(), random);
+    vary(run, scene(), false, random);
+    expect_same(run, any_count(random), {BatchShape::parallel, BatchShape::coherent, BatchShape::any});
+  }
+  expect_hits(0.05);
+}
+
+TEST_P(BatchTraversal, OfAnyRaysFindsWhatBruteForceFinds) {
+  Random random(53);
+  for (int i = 0; i < rounds(60); ++i) {
+    RayRun run(batch_size);
+    for (Ray& ray : run) ray = any_ray(scene(), random);
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::coherent, BatchShape::any});
+  }
+  expect_hits(0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BatchTraversal, testing::ValuesIn(geometry_scenes()), SceneName());
+
+} // namespace
+} // namespace fastrt::test
