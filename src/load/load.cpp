@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/load/material_files.hpp"
+#include "src/load/obj_reader.hpp"
+#include "src/load/text.hpp"
+#include "src/scene/threads.hpp"
+
+#include <fastrt/error.hpp>
+#include <fastrt/load.hpp>
+
+namespace fastrt {
+
+SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  const Source source = Source::open(path);
+  MaterialFiles files(path, options);
+  ObjReaderSettings settings;
+  settings.threads = thread_count(options.threads);
+  settings.strict = options.strict;
+  settings.object_name = path.stem().string();
+  settings.read_library = [&files](const std::string& names, std::uint64_t offset, MaterialSet& materials,
+                                   EventLog& log) { files.read(names, offset, materials, log); };
+  return read_obj(source, settings, diagnostics);
+}
+
+SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options,
+                     Diagnostics& diagnostics) {
+  const std::string extension = lower_case(path.extension().string());
+  if (extension == ".obj") return load_obj(path, options, diagnostics);
+  throw UsageError("cannot tell the format of " + in_quotes(path.string()) + " by its name; known: .obj");
+}
+
+} // namespace fastrt

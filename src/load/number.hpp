@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decimal text to numbers: a fast way for what exporters write, and a careful one that says what is wrong.
+// Both give the correctly rounded float. The fast functions read up to 16 bytes past what they take.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+namespace fastrt {
+
+static_assert(std::endian::native == std::endian::little, "eight digits are read as one integer");
+
+// The digits at the start of eight characters: how many, and their value.
+struct DigitRun {
+  int count;
+  std::uint32_t value;
+};
+
+inline DigitRun take_eight(const char* p) {
+  std::uint64_t text = 0;
+  std::memcpy(&text, p, sizeof text);
+  const std::uint64_t digits = text - 0x3030303030303030U;
+  // The high bit of a byte ends up set if it is below '0' or above '9'; a borrow only spoils later bytes.
+  const std::uint64_t others = ((text + 0x4646464646464646U) | digits | text) & 0x8080808080808080U;
+  const int count = others == 0 ? 8 : std::countr_zero(others) / 8;
+  if (count == 0) return {0, 0};
+  std::uint64_t x = digits << (64U - 8U * static_cast<unsigned>(count));
+  x = x * 10 + (x >> 8U);
+  constexpr std::uint64_t pairs = 0x000000FF000000FFU;
+  x = ((x & pairs) * 0x000F424000000064U + ((x >> 16U) & pairs) * 0x0000271000000001U) >> 32U;
+  return {count, static_cast<std::uint32_t>(x)};
+}
+
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+inline constexpr std::array<double, 23> exact_powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr std::array<std::uint32_t, 9> small_powers_of_ten = {
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+
+// Takes "e-05" at p and adds it to `exponent`. False if there is no number or a large one.
+bool take_exponent(const char*& p, int& exponent);
+
+// Takes a number at p. False, and p unchanged, if there is none or if it needs parse_number. What follows it
+// is for the caller to check.
+inline bool take_float(const char*& p, float& value) {
+  const char* q = p;
+  const bool negative = *q == '-';
+  if (negative || *q == '+') ++q;
+  const char* first = q;
+  std::uint64_t mantissa = 0;
+  for (; is_digit(*q); ++q) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*q - '0');
+  int digits = static_cast<int>(q - first);
+  int exponent = 0;
+  if (*q == '.') {
+    ++q;
+    for (;;) {
+      const DigitRun run = take_eight(q);
+      mantissa = mantissa * small_powers_of_ten[static_cast<std::size_t>(run.count)] + run.value;
+      q += run.count;
+      exponent -= run.count;
+      if (run.count < 8 || exponent < -16) break;
+    }
+    digits -= exponent;
+  }
+  if (digits == 0 || digits > 19) return false; // beyond 19 the mantissa may have wrapped around
+  if ((*q == 'e' || *q == 'E') && !take_exponent(q, exponent)) return false;
+  if (mantissa > (std::uint64_t{1} << 53U) || exponent < -22 || exponent > 22) return false;
+
+  // Mantissa and power are exact, so this is rounded once.
+  const auto exact = static_cast<double>(static_cast<std::int64_t>(mantissa));
+  const double scaled = exponent < 0 ? exact / exact_powers_of_ten[static_cast<std::size_t>(-exponent)]
+                                     : exact * exact_powers_of_ten[static_cast<std::size_t>(exponent)];
+  // Rounding a second time to float is right too, unless the double lies half-way between two floats: then
+  // the digits that were rounded away decide.
+  constexpr std::uint64_t below_float = (std::uint64_t{1} << 29U) - 1;
+  constexpr std::uint64_t half = std::uint64_t{1} << 28U;
+  if ((std::bit_cast<std::uint64_t>(scaled) & below_float) == half) return false;
+  if (!(scaled < static_cast<double>(std::numeric_limits<float>::max()))) return false;
+  if (scaled < static_cast<double>(std::numeric_limits<float>::min()) && mantissa != 0) return false;
+  value = static_cast<float>(negative ? -scaled : scaled);
+  p = q;
+  return true;
+}
+
+// Takes up to ten digits at p. False, and p unchanged, if there is none or the number exceeds 32 bits.
+inline bool take_index(const char*& p, std::uint32_t& value) {
+  const DigitRun run = take_eight(p);
+  if (run.count == 0) return false;
+  if (run.count < 8) {
+    p += run.count;
+    value = run.value;
+    return true;
+  }
+  std::uint64_t wide = run.value;
+  const char* q = p + 8;
+  for (; is_digit(*q) && q - p < 11; ++q) wide = wide * 10 + static_cast<std::uint64_t>(*q - '0');
+  if (wide > std::numeric_limits<std::uint32_t>::max()) return false;
+  p = q;
+  value = static_cast<std::uint32_t>(wide);
+  return true;
+}
+
+enum class NumberFault { none, not_a_number, not_finite, out_of_range };
+
+struct Number {
+  float value = 0;
+  NumberFault fault = NumberFault::none;
+  bool underflow = false; // not 0 as written, but too small for a normal float
+};
+
+// The whole of a word as a number.
+Number parse_number(std::string_view word);
+
+// What to say about a number that can't be taken.
+const char* describe(NumberFault fault);
+
+} // namespace fastrt

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The second pass over an OBJ file: a chunk's statements into the scene's columns.
+#pragma once
+
+#include "src/load/obj_plan.hpp"
+
+#include <fastrt/scene.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace fastrt {
+
+struct Corner {
+  std::uint32_t v, t, n;
+  bool operator==(const Corner&) const = default;
+};
+
+// Fills the rows that belong to one chunk. Stops at the first error, which goes to the result's log.
+class ObjFiller {
+public:
+  // `smoothing`: a column for the triangles' smoothing groups, or null.
+  ObjFiller(const Source& source, const ObjPlan& plan, SceneDesc& desc, Column<std::uint32_t>* smoothing)
+      : source_(source), plan_(plan), desc_(desc), smoothing_(smoothing) {}
+
+  void fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& start, const ObjCounts& counts,
+            bool with_care, ObjChunkResult& result);
+
+private:
+  // The fast way: false, and nothing done, for everything that is not plain.
+  bool take_plain(char*& p);
+  bool take_numbers(const char*& p, std::span<float> numbers, std::size_t least, std::size_t& count) const;
+  bool take_vertex(const char* p, char*& next);
+  bool take_face(const char* p, char*& next);
+  bool take_corner(const char*& p, Corner& corner) const;
+
+  // The careful way: knows everything and says what is wrong. False after an error.
+  bool read_line(char*& p, char* limit);
+  bool read_statement(std::string_view line);
+  bool read_vertex(std::string_view keyword, std::string_view line);
+  bool read_face(std::string_view line);
+  bool read_corner(std::string_view line, std::string_view word, Corner& corner);
+  bool read_reference(std::string_view text, std::uint64_t offset, int which, std::uint32_t& index);
+  void read_state(std::string_view keyword, std::string_view rest);
+  void use_material(std::string_view name);
+  void start_object(std::string_view name);
+  void warn_about_keyword(std::string_view keyword);
+
+  void put_position(std::span<const float> numbers);
+  void put_normal(std::span<const float> numbers);
+  void put_uv(std::span<const float> numbers);
+  void put_face(std::span<const Corner> corners);
+  std::uint64_t offset_of(const char* p) const {
+    return chunk_begin_ + static_cast<std::uint64_t>(p - text_);
+  }
+
+  const Source& source_;
+  const ObjPlan& plan_;
+  SceneDesc& desc_;
+  Column<std::uint32_t>* smoothing_;
+
+  // The chunk being read.
+  const char* text_ = nullptr;
+  std::uint64_t chunk_begin_ = 0;
+  std::uint64_t line_offset_ = 0;
+  ObjState now_;   // `before` counts what has been read so far
+  ObjCounts last_; // what `before` will be at the chunk's end
+  ObjChunkResult* result_ = nullptr;
+  std::vector<Corner> corners_;
+};
+
+} // namespace fastrt

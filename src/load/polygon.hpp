@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastrt/math.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fastrt {
+
+// Polygons of any shape to triangles. Keeps its memory from one to the next.
+class PolygonTriangulator {
+public:
+  using Triangle = std::array<std::uint32_t, 3>; // of corners
+  struct Result {
+    bool tangled = false; // crosses itself or has no area: the triangles are a fan
+    bool bent = false;    // far from planar
+  };
+
+  // corners: at least 3, in order. Puts corners.size() - 2 triangles, turning as the polygon does, into
+  // `triangles`: a fan around the first corner if it is convex, else by cutting off ears in the plane that
+  // shows most of it.
+  Result run(std::span<const Vec3> corners, std::vector<Triangle>& triangles);
+
+private:
+  struct Point {
+    double x, y;
+  };
+  // A corner in the ring of those that are left.
+  struct Link {
+    std::uint32_t before, after;
+  };
+  enum class Turn { left, straight, right };
+
+  Result project(std::span<const Vec3> corners);
+  static double area(const Point& a, const Point& b, const Point& c);
+  Turn turn_at(std::uint32_t corner) const;
+  bool is_convex() const;
+  bool crosses_itself() const;
+  bool winds_once() const;
+  void fan(std::vector<Triangle>& triangles) const;
+  bool cut_ears(std::vector<Triangle>& triangles);
+  void make_ring();
+  bool is_ear(std::uint32_t corner) const;
+  bool blocks(std::uint32_t other, const Link& ends, std::uint32_t corner) const;
+  void cut(std::uint32_t corner, std::vector<Triangle>& triangles);
+
+  std::vector<Point> points_; // projected so that the polygon turns left
+  std::vector<Link> ring_;
+  std::vector<std::uint32_t> by_x_; // corners that may lie in an ear, by ascending x
+  std::vector<char> gone_;
+};
+
+} // namespace fastrt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace fastrt {
+
+// The folder of a scene file, and what may be opened because the scene says so: regular files in it and
+// below, symbolic links followed.
+class SceneFolder {
+public:
+  SceneFolder(const std::filesystem::path& scene_file, bool allow_external);
+
+  enum class Finding { regular, missing, outside, special };
+  struct Answer {
+    Finding finding;
+    std::filesystem::path path; // without links; of regular files
+  };
+  // `name` as a scene writes it, relative to `folder`; `\` separates too. Opens nothing.
+  Answer find(std::string_view name, const std::filesystem::path& folder) const;
+  const std::filesystem::path& root() const noexcept { return root_; }
+
+private:
+  bool holds(const std::filesystem::path& path) const;
+
+  std::filesystem::path root_;
+  bool allow_external_;
+};
+
+// `\` to `/`.
+std::string with_slashes(std::string_view name);
+
+} // namespace fastrt
