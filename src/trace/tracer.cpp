@@ -71,7 +71,9 @@ void fill_shading_view(Tracer::Parts& parts) {
   view.lights = parts.lights.data();
   view.light_count = static_cast<std::uint32_t>(parts.lights.size());
   view.has_transmission = parts.scene.has_transmission();
-  for (const MaterialRow& row : parts.materials) view.has_absorption |= row.has_absorption;
+  // Where nothing lets light through no ray is ever inside anything, and rays' media are not kept.
+  for (const MaterialRow& row : parts.materials)
+    view.has_absorption |= view.has_transmission != 0 ? row.has_absorption : 0U;
   for (int c = 0; c < 3; ++c) {
     view.ambient[c] = desc.ambient[c];
     view.background[c] = desc.background[c];
