@@ -60,16 +60,23 @@ private:
   void build_root() {
     root_.range.end = boxes_.size();
     measure_chunks(root_);
+    check_groups();
     const LaneBox& bounds = root_.range.bounds;
     alignas(16) float extent[4];
     _mm_store_ps(extent, _mm_sub_ps(bounds.upper, bounds.lower));
     const float largest = std::max(extent[0], std::max(extent[1], extent[2]));
     const bool usable = largest >= std::numeric_limits<float>::min() && largest < infinity;
     context_.scale = _mm_set1_ps(usable ? std::ldexp(1.0F, -std::min(std::ilogb(largest), 126)) : 1.0F);
-    const std::uint32_t group = boxes_[0].group;
-    context_.one_group = std::all_of(boxes_.begin(), boxes_.end(),
-                                     [=](const PrimitiveBox& box) { return box.group == group; });
     build(root_);
+  }
+
+  void check_groups() {
+    std::vector<char> same(root_.chunks.size());
+    for_each_index(same.size(), [&](std::size_t i) {
+      same[i] = std::all_of(boxes_.begin() + root_.chunks[i].begin, boxes_.begin() + root_.chunks[i].end,
+                            [&](const PrimitiveBox& box) { return box.group == boxes_[0].group; });
+    });
+    context_.one_group = std::find(same.begin(), same.end(), 0) == same.end();
   }
 
   // Cuts the range into chunks and finds its exact bounds and bins.
