@@ -68,7 +68,8 @@ FASTRT_INLINE Extent<F> box_extent(const ExtentAxis& a, const float* columns, co
 struct TileView {
   TileFrame frame;
   ExtentAxis u, v, w;
-  ExtentAxis sides[4];       // inner normals of the planes through the origin and the sides of the batch's rectangle
+  ExtentAxis
+      sides[4]; // inner normals of the planes through the origin and the sides of the batch's rectangle
   TileGroups groups;
   float x0, x1, y0, y1, far; // around all groups
 };
@@ -104,7 +105,8 @@ struct ChildRectangles {
   std::uint32_t bits;
 };
 
-// Boxes that reach behind the origin have no rectangle; the four sides still tell which of them the batch can't meet.
+// Boxes that reach behind the origin have no rectangle; the four sides still tell which of them the batch
+// can't meet.
 FASTRT_INLINE std::uint32_t within_sides(const TileView& view, const float* columns) {
   using N = Floats<node_lanes>;
   const N padding(4.0F * view.frame.padding);
@@ -126,7 +128,8 @@ FASTRT_INLINE void project_children(const TileView& view, const WideNode& node, 
     const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
                           (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
     std::uint32_t bits = to_bits(met);
-    if (view.frame.perspective && (to_bits(w.low <= N(0.0F)) & bits) != 0) bits &= within_sides(view, columns);
+    if (view.frame.perspective && (to_bits(w.low <= N(0.0F)) & bits) != 0)
+      bits &= within_sides(view, columns);
     out.bits |= bits << half;
     r.x0.store_aligned(out.x0 + half);
     r.x1.store_aligned(out.x1 + half);
@@ -159,11 +162,16 @@ FASTRT_INLINE std::uint32_t far_groups(const TileGroups& groups, float near) {
   return bits;
 }
 
-// The rectangles of a block's triangles, given their vertices relative to the origin.
-FASTRT_INLINE Rectangles<Floats<block_size>> project_triangles(const TileView& view,
-                                                               const V3<Floats<block_size>>& a,
-                                                               const V3<Floats<block_size>>& b,
-                                                               const V3<Floats<block_size>>& c) {
+// A block's triangles in the plane: their rectangles, and for parallel rays their corners.
+struct ProjectedTriangles {
+  Rectangles<Floats<block_size>> bounds;
+  Floats<block_size> ax, ay, bx, by, cx, cy;
+};
+
+// Vertices relative to the origin.
+FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V3<Floats<block_size>>& a,
+                                                   const V3<Floats<block_size>>& b,
+                                                   const V3<Floats<block_size>>& c) {
   using B = Floats<block_size>;
   const V3<B> u = broadcast3<B>(view.frame.u), v = broadcast3<B>(view.frame.v),
               w = broadcast3<B>(view.frame.w);
@@ -172,8 +180,14 @@ FASTRT_INLINE Rectangles<Floats<block_size>> project_triangles(const TileView& v
   const B near = min(aw, min(bw, cw)) - padding;
   B ax = dot(a, u), bx = dot(b, u), cx = dot(c, u), ay = dot(a, v), by = dot(b, v), cy = dot(c, v);
   if (!view.frame.perspective)
-    return {min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
-            max(ay, max(by, cy)) + padding, near};
+    return {{min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
+             max(ay, max(by, cy)) + padding, near},
+            ax,
+            ay,
+            bx,
+            by,
+            cx,
+            cy};
   const B one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin), zero(0.0F);
   const MaskOf<B> around = near <= zero;
   MaskOf<B> within = zero <= zero;
@@ -182,8 +196,10 @@ FASTRT_INLINE Rectangles<Floats<block_size>> project_triangles(const TileView& v
       return max(p, max(q, r)) >= negate(B(4.0F) * padding);
     };
     const B vx0(view.x0), vx1(view.x1), vy0(view.y0), vy1(view.y1);
-    within = meets(ax - vx0 * aw, bx - vx0 * bw, cx - vx0 * cw) & meets(vx1 * aw - ax, vx1 * bw - bx, vx1 * cw - cx) &
-             meets(ay - vy0 * aw, by - vy0 * bw, cy - vy0 * cw) & meets(vy1 * aw - ay, vy1 * bw - by, vy1 * cw - cy);
+    within = meets(ax - vx0 * aw, bx - vx0 * bw, cx - vx0 * cw) &
+             meets(vx1 * aw - ax, vx1 * bw - bx, vx1 * cw - cx) &
+             meets(ay - vy0 * aw, by - vy0 * bw, cy - vy0 * cw) &
+             meets(vy1 * aw - ay, vy1 * bw - by, vy1 * cw - cy);
   }
   const B ai = one / aw, bi = one / bw, ci = one / cw;
   ax = ax * ai, bx = bx * bi, cx = cx * ci, ay = ay * ai, by = by * bi, cy = cy * ci;
@@ -191,8 +207,14 @@ FASTRT_INLINE Rectangles<Floats<block_size>> project_triangles(const TileView& v
           y1 = max(ay, max(by, cy));
   const B mx = ((abs(x0) + abs(x1)) + one) * margin, my = ((abs(y0) + abs(y1)) + one) * margin;
   const B outside = select(within, negate(everywhere), everywhere);
-  return {select(around, outside, x0 - mx), select(around, everywhere, x1 + mx),
-          select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near};
+  return {{select(around, outside, x0 - mx), select(around, everywhere, x1 + mx),
+           select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near},
+          ax,
+          ay,
+          bx,
+          by,
+          cx,
+          cy};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

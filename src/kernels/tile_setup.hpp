@@ -122,8 +122,7 @@ FASTRT_INLINE PacketM project_rays(const TileFrame& f, const RayBatch& rays, std
 
 // False if the rays spread too widely to be seen from one plane.
 FASTRT_INLINE bool project_batch(const GeometryView& scene, const RayBatch& rays, const LiveRays& live,
-                                 TileFrame& f, TileGroups& groups) {
-  TilePoints points;
+                                 TileFrame& f, TilePoints& points, TileGroups& groups) {
   for (int i = 0; i < batch_size; i += widest) {
     const std::uint32_t bits =
         (live.bits[i / group_size] >> (i % group_size)) & ((1U << (widest - 1)) * 2U - 1U);

@@ -5,7 +5,7 @@
 // rays of a common origin share the set-up without changing a bit.
 #pragma once
 
-#include "src/kernels/tile_culling.hpp"
+#include "src/kernels/tile_edges.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -22,8 +22,13 @@ struct TileTraversal {
   const RayBatch& rays;
   HitBatch& hits;
   const LiveRays& live;
+  TilePoints points;
   TileView view;
 };
+
+// A triangle that covers more groups than this by its rectangle is held against their corners by its edges;
+// one that covers fewer against their rays.
+inline constexpr int many_groups = 3;
 
 // After a hit: how far the group's rays still look. A group whose rays all have a hit looks nowhere if any
 // will do.
@@ -39,6 +44,12 @@ FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g) {
   } else {
     tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.live.bits[g], g);
   }
+}
+
+// Rays that have a hit are no points any more.
+FASTRT_INLINE void close_rays(TilePoints& points, const PacketI& primitive, int i) {
+  const PacketM hit = simd::bool_cast(primitive >= PacketI(0));
+  select(hit, PacketF(__builtin_inff()), PacketF::load_aligned(points.x + i)).store_aligned(points.x + i);
 }
 
 // One primitive against the rays of group g. meet(dir, origin, t_min) gives the lanes that it hits and their
@@ -58,6 +69,7 @@ FASTRT_INLINE void meet_group(TileTraversal<any>& tile, int g, std::int32_t prim
       continue;
     best_t.store_aligned(tile.hits.t + i);
     best_primitive.store_aligned(tile.hits.primitive + i);
+    if constexpr (any) close_rays(tile.points, best_primitive, i);
     changed = true;
   }
   if (changed) shorten_group(tile, g);
@@ -125,6 +137,41 @@ FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const TriangleBlock& 
     });
 }
 
+struct Sieve {
+  bool some; // some triangle touches some group
+  bool many; // some triangle touches more than many_groups
+};
+
+// The groups that each of the four triangles touches by its rectangle, and if these are few, with a ray in
+// it.
+template <bool any>
+FASTRT_INLINE Sieve sieve_rectangles(const TileTraversal<any>& tile, const Rectangles<BlockF>& r,
+                                     std::uint32_t groups, std::uint32_t* touched) {
+  alignas(16) float x0[block_size], x1[block_size], y0[block_size], y1[block_size], near[block_size];
+  r.x0.store_aligned(x0);
+  r.x1.store_aligned(x1);
+  r.y0.store_aligned(y0);
+  r.y1.store_aligned(y1);
+  r.near.store_aligned(near);
+  Sieve sieve{false, false};
+  for (int i = 0; i < block_size; ++i) {
+    touched[i] = touched_groups(tile.view.groups, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
+    if (__builtin_popcount(touched[i]) > many_groups)
+      sieve.many = true;
+    else if (touched[i] != 0)
+      touched[i] = groups_with_rays(tile.points, x0[i], x1[i], y0[i], y1[i], touched[i]);
+    sieve.some = sieve.some || touched[i] != 0;
+  }
+  return sieve;
+}
+
+template <bool any>
+FASTRT_INLINE std::uint32_t sieve_edges(const TileTraversal<any>& tile, const EdgeLines& lines, int i,
+                                        std::uint32_t touched) {
+  if (__builtin_popcount(touched) <= many_groups) return touched;
+  return groups_inside_edges(tile.view.groups, lines, i, touched);
+}
+
 template <bool any>
 FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const TriangleBlock& block, std::uint32_t groups) {
   using B = Floats<block_size>;
@@ -132,26 +179,23 @@ FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const TriangleBlock& blo
   const V3<B> a = load3<B>(block.x[0], block.y[0], block.z[0]) - origin;
   const V3<B> b = load3<B>(block.x[1], block.y[1], block.z[1]) - origin;
   const V3<B> c = load3<B>(block.x[2], block.y[2], block.z[2]) - origin;
-  const Rectangles<B> r = project_triangles(tile.view, a, b, c);
-  alignas(16) float x0[block_size], x1[block_size], y0[block_size], y1[block_size], near[block_size];
-  r.x0.store_aligned(x0);
-  r.x1.store_aligned(x1);
-  r.y0.store_aligned(y0);
-  r.y1.store_aligned(y1);
-  r.near.store_aligned(near);
-  std::uint32_t touched[block_size], some = 0;
-  for (int i = 0; i < block_size; ++i) {
-    touched[i] = touched_groups(tile.view.groups, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
-    some |= touched[i];
-  }
-  if (some == 0) return;
+  const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
+  std::uint32_t touched[block_size];
+  const Sieve sieve = sieve_rectangles(tile, projected.bounds, groups, touched);
+  if (!sieve.some) return;
+  EdgeLines lines;
   if (!tile.view.frame.perspective) {
-    for (int i = 0; i < block_size; ++i) meet_parallel(tile, block, i, touched[i]);
+    if (sieve.many) lines_from_corners(tile.view.frame, projected, lines);
+    for (int i = 0; i < block_size; ++i)
+      if (touched[i] != 0) meet_parallel(tile, block, i, sieve_edges(tile, lines, i, touched[i]));
     return;
   }
-  const BlockSetup setup = store_setup(set_up_triangle(a, b, c));
+  const TriangleSetup<B> setup = set_up_triangle(a, b, c);
+  if (sieve.many) lines_from_setup(tile.view.frame, setup, lines);
+  const BlockSetup stored = store_setup(setup);
   for (int i = 0; i < block_size; ++i)
-    if (touched[i] != 0) meet_from_origin(tile, setup, i, block.primitive[i], touched[i]);
+    if (touched[i] != 0)
+      meet_from_origin(tile, stored, i, block.primitive[i], sieve_edges(tile, lines, i, touched[i]));
 }
 
 template <bool any>
@@ -242,9 +286,9 @@ static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch
   const LiveRays live = find_live_rays(rays);
   if (live.first < 0) return true;
   if (live.backwards) return false;
-  TileTraversal<any> tile{scene, rays, hits, live, {}};
+  TileTraversal<any> tile{scene, rays, hits, live, {}, {}};
   tile.view.frame = make_tile_frame(rays, live);
-  if (!project_batch(scene, rays, live, tile.view.frame, tile.view.groups)) return false;
+  if (!project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups)) return false;
   for (int g = 0; g < batch_groups; ++g)
     tile.view.groups.far[g] =
         live.bits[g] == 0 ? -__builtin_inff() : group_far(hits, tile.view.groups, live.bits[g], g);
