@@ -2,13 +2,9 @@
 // What the program says, besides the picture.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 namespace fastrt::cli {
-
-// The text on one line: control characters, which a file name may hold, are spelled out as \xNN.
-std::string printable(std::string_view text);
 
 // One line on stderr: "fastrt: error: ..." or "fastrt: warning: ...".
 void print_error(std::string_view message);

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -158,6 +159,10 @@ SceneDesc read_scene(const Options& options, int threads) {
   load.strict = options.strict;
   load.allow_external_files = options.allow_external_files;
   load.tr_is_opacity = options.tr_is_opacity;
+  std::error_code error;
+  if (fs::is_directory(options.scene, error)) {
+    throw InputError("cannot read '" + options.scene + "': it is a folder");
+  }
   Diagnostics diagnostics;
   SceneDesc desc = load_scene(options.scene, load, diagnostics);
   for (const std::string& line : diagnostics.lines()) warn(options, line);

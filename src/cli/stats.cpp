@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/stats.hpp"
 
-#include "src/cli/report.hpp"
+#include "src/scene/printable.hpp"
 
 #include <sys/resource.h>
 

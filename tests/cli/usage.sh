@@ -126,7 +126,8 @@ cameras() {
 
 inputs() {
   expect_error 3 'missing.obj' missing.obj
-  expect_error 3 '' "$scratch/"
+  expect_error 3 'folder' "$scratch/"
+  expect_error 3 'folder' .
   expect_error 2 '.xyz' scene.xyz
   printf 'v 0 0 0\nf 1 2 3\n' >bad.obj
   expect_error 3 'bad.obj:2' bad.obj

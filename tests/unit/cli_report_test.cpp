@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/progress.hpp"
-#include "src/cli/report.hpp"
 #include "src/cli/stats.hpp"
 
 #include <gtest/gtest.h>
@@ -73,10 +72,6 @@ TEST(CliReport, VerifyHasThreeLines) {
                                 "verify: 1 of 786432 primitive ids differ\n"
                                 "verify: the largest difference is 0.25\n");
   EXPECT_NE(stats_json(stats).find("\"pixels\": 3"), std::string::npos);
-}
-
-TEST(CliReport, ControlCharactersAreSpelledOut) {
-  EXPECT_EQ(printable("a\x1b[31m\n\x7f b\xC3\xA4"), "a\\x1b[31m\\x0a\\x7f b\xC3\xA4");
 }
 
 TEST(CliReport, ProgressTellsShareAndTimeLeft) {
