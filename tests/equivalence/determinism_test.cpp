@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same picture every time, and the same picture of the same thing in other units.
+#include "tests/equivalence/designed_shots.hpp"
+#include "tests/equivalence/random_shots.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fastrt::test {
+namespace {
+
+TEST(Determinism, TwentyRenderingsAreOne) {
+  for (const Shot& shot : {mirrors("mirrors", 8, 0), coloured_shadows()}) {
+    for (const Isa isa : simd_isas()) {
+      const Tracer tracer = make_tracer(shot.scene, isa);
+      RenderSettings settings = shot.settings;
+      settings.samples_per_pixel = 3;
+      const Frame first = render(tracer, shot.camera, settings);
+      for (int i = 1; i < effort(20); ++i) {
+        settings.threads = 1 + i % 8;
+        expect_equal(render(tracer, shot.camera, settings), first, shot.name + ", " + isa_word(isa));
+      }
+    }
+  }
+}
+
+TEST(Determinism, ATracerIsTheSameForAnyNumberOfThreads) {
+  const Shot shot = coloured_shadows();
+  TracerSettings settings;
+  settings.threads = 1;
+  const Frame first = render(Tracer(shot.scene, settings), shot.camera, shot.settings);
+  for (const int threads : {2, 3, 8}) {
+    settings.threads = threads;
+    expect_equal(render(Tracer(shot.scene, settings), shot.camera, shot.settings), first, "threads");
+  }
+}
+
+// Everything that is a length times `factor`, a power of two; absorption is per length.
+Shot in_other_units(const Shot& shot, float factor) {
+  SceneDesc desc = shot.scene.desc();
+  for (Column<float>* column : {&desc.positions.x, &desc.positions.y, &desc.positions.z, &desc.spheres.x,
+                                &desc.spheres.y, &desc.spheres.z, &desc.spheres.radius})
+    for (float& value : *column) value *= factor;
+  for (Light& light : desc.lights) light.position *= factor;
+  for (Material& material : desc.materials) material.absorption /= factor;
+  Shot scaled{shot.name, Scene(std::move(desc)), shot.camera, shot.settings};
+  scaled.camera.eye *= factor;
+  scaled.camera.look_at *= factor;
+  return scaled;
+}
+
+void expect_same_in_other_units(const Shot& shot) {
+  const Frame expected =
+      render(make_tracer(shot.scene, available_isas().front()), shot.camera, shot.settings);
+  for (const float factor : {1.0F / 1024, 8192.0F}) {
+    const Shot scaled = in_other_units(shot, factor);
+    for (const Isa isa : simd_isas())
+      expect_equal(render(make_tracer(scaled.scene, isa), scaled.camera, scaled.settings), expected,
+                   shot.name + ", " + isa_word(isa) + ", times " + std::to_string(factor));
+  }
+}
+
+TEST(Units, DoNotChangeADesignedPicture) {
+  for (const Shot& shot : designed_shots()) expect_same_in_other_units(shot);
+}
+
+TEST(Units, DoNotChangeARandomPicture) {
+  for (std::uint32_t seed = 5000; seed < 5000 + static_cast<std::uint32_t>(effort(25)); ++seed)
+    expect_same_in_other_units(any_shot(seed));
+}
+
+} // namespace
+} // namespace fastrt::test

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that leave a surface by the rule of docs/numerics.md ("Offset of secondary rays") do not meet it
+// again: on closed convex bodies nothing may be hit by a reflected ray or by a shadow ray that faces its
+// light.
+#include "src/reference/surface.hpp"
+#include "tests/equivalence/answers.hpp"
+#include "tests/equivalence/geometry_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fastrt::test {
+namespace {
+
+struct Body {
+  float scale;
+  float offset;
+  bool is_sphere;
+};
+void PrintTo(const Body& body, std::ostream* out) {
+  *out << (body.is_sphere ? "sphere " : "mesh ") << body.scale << " at " << body.offset;
+}
+
+class SelfHits : public testing::TestWithParam<Body> {
+protected:
+  static constexpr int batches = slow_build ? 10 : 200;
+
+  SelfHits() : scene_(make_scene()), tracer_(scene_, with_isa(Isa::sse42)) {}
+
+  static Scene make_scene() {
+    const Body& body = GetParam();
+    if (!body.is_sphere) return scene_of(placed(icosphere(2), body.scale, Vec3(body.offset)));
+    SceneBuilder builder;
+    builder.add_sphere(Vec3(body.offset), body.scale, builder.add_material({}));
+    return builder.build();
+  }
+
+  // Rays from around the body onto it.
+  std::vector<Ray> rays_onto(Random& random) const {
+    const Body& body = GetParam();
+    std::vector<Ray> rays(batch_size);
+    for (Ray& ray : rays) {
+      ray.origin = Vec3(body.offset) + body.scale * random.uniform(1.2F, 5) * random.direction();
+      ray.direction = target_on(scene_, random) - ray.origin;
+    }
+    return rays;
+  }
+
+  // The next ray from a surface: reflected if `light` is null, else from the light to it.
+  static Ray next_ray(const reference::Surface& surface, const Vec3* light, Random& random) {
+    Ray ray;
+    ray.excluded = surface.planar;
+    const Vec3& normal = surface.geometric_normal;
+    if (light == nullptr) {
+      ray.origin = surface.point + reference::offset_for(surface.magnitude) * normal;
+      ray.direction = random.direction();
+      // Often at a grazing angle.
+      if (random.below(2) == 0) ray.direction += -0.99F * glm::dot(ray.direction, normal) * normal;
+      if (glm::dot(ray.direction, normal) < 0.0F) ray.direction = -ray.direction;
+      return ray;
+    }
+    const float size = reference::max(surface.magnitude, reference::largest_magnitude(*light));
+    ray.origin = *light;
+    ray.direction = (surface.point + reference::offset_for(size) * normal) - *light;
+    ray.t_max = 1;
+    return ray;
+  }
+
+  // How many of the next rays hit something.
+  int count(Isa isa, bool shadows) {
+    Random random(101);
+    KernelQuery query;
+    const SceneView& view = tracer_.parts().view;
+    int hits = 0;
+    for (int batch = 0; batch < batches; ++batch) {
+      const std::vector<Ray> rays = rays_onto(random);
+      const Vec3 light =
+          Vec3(GetParam().offset) + GetParam().scale * random.uniform(1.2F, 9) * random.direction();
+      const std::vector<Hit> found = query.closest(kernels_of(isa), view, rays, BatchShape::any);
+      std::vector<Ray> next;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!found[i].found()) continue;
+        const reference::Surface surface = reference::surface_at(scene_, rays[i], found[i]);
+        // At the very outline a ray may hit a back, and leaves inwards.
+        if (glm::dot(surface.geometric_normal, surface.point - Vec3(GetParam().offset)) < 0.0F) continue;
+        if (shadows && !(glm::dot(surface.geometric_normal, glm::normalize(light - surface.point)) > 0.0F))
+          continue;
+        next.push_back(next_ray(surface, shadows ? &light : nullptr, random));
+      }
+      traced_ += next.size();
+      const BatchShape shape = shadows ? BatchShape::common_origin : BatchShape::coherent;
+      for (const bool hit : query.any(kernels_of(isa), view, next, shape)) hits += hit ? 1 : 0;
+    }
+    return hits;
+  }
+
+  std::size_t traced_ = 0;
+
+private:
+  Scene scene_;
+  Tracer tracer_;
+};
+
+TEST_P(SelfHits, AreThereNone) {
+  for (const Isa isa : simd_isas()) {
+    EXPECT_EQ(count(isa, false), 0) << isa_word(isa) << ", reflected";
+    EXPECT_EQ(count(isa, true), 0) << isa_word(isa) << ", shadows";
+  }
+  EXPECT_GT(traced_, static_cast<std::size_t>(batches) * batch_size * simd_isas().size());
+}
+
+std::vector<Body> bodies() {
+  std::vector<Body> bodies;
+  for (const bool is_sphere : {false, true})
+    for (const float scale : {1e-3F, 1e-2F, 1.0F, 1e2F, 1e4F})
+      for (const float offset : {0.0F, 1e2F})
+        if (scale * 1e4F >= offset) bodies.push_back({scale, offset, is_sphere});
+  return bodies;
+}
+INSTANTIATE_TEST_SUITE_P(Bodies, SelfHits, testing::ValuesIn(bodies()));
+
+} // namespace
+} // namespace fastrt::test
