@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fast deflate (RFC 1951) for filtered picture rows: bytes and runs of equal bytes under Huffman codes made
-// for the piece. On rendered pictures that is about as small as a search for repeats by general compressors,
-// and several times faster (numbers in docs/decisions).
+// for the piece. Filtered renders hold few other repeats, so not searching for them costs little size.
 #pragma once
 
 #include <cstddef>
