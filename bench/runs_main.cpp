@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// fastrt_runs: the whole run (read, build, render, write) of fastrt beside that of other renderers, as far as
+// they are installed: Embree's pathtracer, tachyon, POV-Ray.
+#include <fastrt/fastrt.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "bench/measure.hpp"
+#include "bench/peer_scenes.hpp"
+#include "bench/processes.hpp"
+
+namespace fastrt::bench {
+namespace {
+
+struct Options {
+  std::string fastrt; // the program
+  std::vector<std::string> models;
+  std::vector<int> threads{1, 2};
+  int size = 1024, rounds = 5;
+  std::string json;
+  std::string keep; // folder for scenes and pictures; empty: a temporary one
+};
+
+struct Run {
+  std::string name;
+  std::vector<std::string> command;
+  std::vector<double> seconds, cpu_seconds;
+  std::size_t peak_bytes = 0;
+  int exit_code = 0;
+};
+
+const char* const usage = "usage: fastrt_runs [options] MODEL.obj...\n"
+                          "Times whole runs of fastrt and of what is installed of pathtracer (embree-tools), "
+                          "tachyon and povray, in turn.\n"
+                          "  --fastrt FILE   the program (fastrt of PATH)\n"
+                          "  --threads LIST  1,2\n"
+                          "  --size N        pixels a side (1024)\n"
+                          "  --rounds N      (5)\n"
+                          "  --keep FOLDER   leave the scenes and pictures there\n"
+                          "  --json FILE     write all numbers\n";
+
+int whole_number(const std::string& text) {
+  char* end = nullptr;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0' || value < 1 || value > 65536)
+    throw UsageError("'" + text + "' is not a number from 1 to 65536");
+  return static_cast<int>(value);
+}
+
+Options parse(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string name = arguments[i];
+    if (!name.starts_with("-")) {
+      options.models.push_back(name);
+      continue;
+    }
+    if (i + 1 == count) throw UsageError("unknown option or missing value: " + name);
+    const std::string value = arguments[++i];
+    if (name == "--fastrt") {
+      options.fastrt = value;
+    } else if (name == "--threads") {
+      options.threads.clear();
+      std::istringstream list(value);
+      for (std::string part; std::getline(list, part, ',');) options.threads.push_back(whole_number(part));
+    } else if (name == "--size") {
+      options.size = whole_number(value);
+    } else if (name == "--rounds") {
+      options.rounds = whole_number(value);
+    } else if (name == "--json") {
+      options.json = value;
+    } else if (name == "--keep") {
+      options.keep = value;
+    } else {
+      throw UsageError("unknown option: " + name);
+    }
+  }
+  if (options.fastrt.empty()) options.fastrt = find_program("fastrt").value_or("");
+  if (options.fastrt.empty()) throw UsageError("no fastrt in PATH; give --fastrt FILE");
+  return options;
+}
+
+// A folder for scenes and pictures; a temporary one is removed at the end.
+class WorkFolder {
+public:
+  explicit WorkFolder(const std::string& keep)
+      : path_(keep.empty()
+                  ? std::filesystem::temp_directory_path() / ("fastrt_runs_" + std::to_string(getpid()))
+                  : std::filesystem::path(keep)),
+        temporary_(keep.empty()) {
+    std::filesystem::create_directories(path_);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  ~WorkFolder() {
+    std::error_code ignored;
+    if (temporary_) std::filesystem::remove_all(path_, ignored);
+  }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+private:
+  std::filesystem::path path_;
+  bool temporary_;
+};
+
+void add_vector(std::vector<std::string>& command, const char* option, const Vec3& v) {
+  command.emplace_back(option);
+  for (int c = 0; c < 3; ++c) command.push_back(std::to_string(v[c]));
+}
+
+std::vector<std::string> pathtracer_command(const std::string& program, const std::string& model,
+                                            const Picture& picture, const std::string& threads,
+                                            const std::string& out) {
+  const std::string size = std::to_string(picture.size);
+  std::vector<std::string> command{program, "-i", model, "-o", out, "--size", size, size};
+  add_vector(command, "--vp", picture.camera.eye);
+  add_vector(command, "--vi", picture.camera.look_at);
+  add_vector(command, "--vu", picture.camera.up);
+  add_vector(command, "--directionallight", picture.light_travel);
+  for (const char* word : {"2.8", "2.8", "2.8", "--spp", "1", "--max-path-length", "1"})
+    command.emplace_back(word);
+  command.insert(command.end(), {"--fov", std::to_string(picture.camera.fov_degrees), "--threads", threads});
+  return command;
+}
+
+std::vector<Run> make_runs(const Options& options, const std::string& model, const Picture& picture,
+                           int thread_count, const WorkFolder& folder) {
+  const std::string threads = std::to_string(thread_count), size = std::to_string(picture.size);
+  std::vector<Run> runs;
+  const auto add = [&](const std::string& name, std::vector<std::string> command) {
+    Run& run = runs.emplace_back();
+    run.name = name;
+    run.command = std::move(command);
+  };
+  for (const std::string format : {"ppm", "png"})
+    add("fastrt (" + format + ")", {options.fastrt, model, "--quiet", "--resolution", size + 'x' + size,
+                                    "--threads", threads, "--output", folder.file("fastrt." + format)});
+  if (const auto program = find_program("pathtracer"))
+    add("embree pathtracer",
+        pathtracer_command(*program, model, picture, threads, folder.file("embree.ppm")));
+  for (const char* name : {"tachyon-nox", "tachyon"})
+    if (const auto program = find_program(name)) {
+      add("tachyon", {*program, folder.file("scene.dat"), "-numthreads", threads, "-format", "PPM", "-o",
+                      folder.file("tachyon.ppm")});
+      break;
+    }
+  if (const auto program = find_program("povray"))
+    add("povray", {*program, "+I" + folder.file("scene.pov"), "+O" + folder.file("povray.ppm"), "+FP",
+                   "+W" + size, "+H" + size, "+WT" + threads, "-D", "-A", "-V"});
+  return runs;
+}
+
+void measure(std::vector<Run>& runs, int rounds) {
+  for (int round = 0; round < rounds; ++round)
+    for (Run& run : runs) {
+      if (run.exit_code != 0) continue;
+      const ProcessResult result = run_process(run.command);
+      run.exit_code = result.exit_code;
+      run.seconds.push_back(result.seconds);
+      run.cpu_seconds.push_back(result.cpu_seconds);
+      run.peak_bytes = std::max(run.peak_bytes, result.peak_bytes);
+    }
+}
+
+Spread ratio_to_first(const std::vector<Run>& runs, const Run& run) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < run.seconds.size() && i < runs[0].seconds.size(); ++i)
+    ratios.push_back(run.seconds[i] / runs[0].seconds[i]);
+  return spread_of(ratios);
+}
+
+void print(const std::string& model, int threads, const std::vector<Run>& runs) {
+  std::printf("%s, %d thread%s\n", model.c_str(), threads, threads == 1 ? "" : "s");
+  std::printf("  %-20s %9s %9s %9s   %s\n", "", "s", "CPU s", "peak MB", "times fastrt's");
+  for (const Run& run : runs) {
+    if (run.exit_code != 0) {
+      std::printf("  %-20s failed, exit code %d\n", run.name.c_str(), run.exit_code);
+      continue;
+    }
+    const Spread ratio = ratio_to_first(runs, run);
+    std::printf("  %-20s %9.3f %9.3f %9.1f   %.2f (%.2f-%.2f)\n", run.name.c_str(),
+                spread_of(run.seconds).median, spread_of(run.cpu_seconds).median,
+                1e-6 * static_cast<double>(run.peak_bytes), ratio.median, ratio.smallest, ratio.largest);
+  }
+  std::fflush(stdout);
+}
+
+std::string json_of(const std::string& model, int threads, const std::vector<Run>& runs) {
+  std::ostringstream out;
+  for (const Run& run : runs) {
+    const Spread ratio = ratio_to_first(runs, run), seconds = spread_of(run.seconds);
+    out << (&run == runs.data() ? "" : ",\n") << "  {\"model\": \"" << model << "\", \"threads\": " << threads
+        << ", \"program\": \"" << run.name << "\", \"exit_code\": " << run.exit_code
+        << ", \"seconds\": {\"median\": " << seconds.median << ", \"min\": " << seconds.smallest
+        << ", \"max\": " << seconds.largest << "}, \"cpu_seconds\": " << spread_of(run.cpu_seconds).median
+        << ", \"peak_bytes\": " << run.peak_bytes << ", \"times_fastrt\": {\"median\": " << ratio.median
+        << ", \"min\": " << ratio.smallest << ", \"max\": " << ratio.largest << "}}";
+  }
+  return out.str();
+}
+
+void run_model(const Options& options, const std::string& model, std::vector<std::string>& json) {
+  Diagnostics diagnostics;
+  SceneDesc desc = load_scene(model, {}, diagnostics);
+  const Camera camera = frame_scene(bounds_of(desc), 40.0F, 1.0F);
+  add_default_lights(desc, bounds_of(desc), camera);
+  const Picture picture{desc, camera, desc.lights[0].direction, options.size};
+  const WorkFolder folder(options.keep);
+  write_povray(picture, folder.file("scene.pov"));
+  write_tachyon(picture, folder.file("scene.dat"));
+  const std::string name = std::filesystem::path(model).stem().string();
+  for (const int threads : options.threads) {
+    std::vector<Run> runs = make_runs(options, model, picture, threads, folder);
+    measure(runs, options.rounds);
+    print(name, threads, runs);
+    json.push_back(json_of(name, threads, runs));
+  }
+}
+
+int run(int count, char** arguments) {
+  const Options options = parse(count, arguments);
+  if (options.models.empty()) throw UsageError(std::string("no model given\n") + usage);
+  std::vector<std::string> json;
+  for (const std::string& model : options.models) run_model(options, model, json);
+  if (options.json.empty()) return 0;
+  std::ofstream file(options.json);
+  file << "{\"runs\": [\n";
+  for (std::size_t i = 0; i < json.size(); ++i) file << json[i] << (i + 1 == json.size() ? "\n" : ",\n");
+  file << "]}\n";
+  file.close();
+  if (!file) throw OutputError("cannot write " + options.json);
+  return 0;
+}
+
+} // namespace
+} // namespace fastrt::bench
+
+int main(int count, char** arguments) {
+  try {
+    return fastrt::bench::run(count, arguments);
+  } catch (const fastrt::UsageError& error) {
+    std::fprintf(stderr, "fastrt_runs: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fastrt_runs: %s\n", error.what());
+    return 1;
+  }
+}
