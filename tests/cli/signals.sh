@@ -44,7 +44,7 @@ while_reading() {
   awk 'BEGIN { for (i = 0; i < 400000; ++i) printf "v %d %d %d\nv %d %d 1\nv 1 %d %d\nf -1 -2 -3\n",
     i % 640, i / 640, i % 7, i % 640, i / 640, i % 640, i / 640 }' >large.obj
   for delay in 0.02 0.1 0.2 0.4; do
-    start large.obj -r 8000x6000 -s 4096 -o a.png
+    start large.obj -q -r 8000x6000 -s 4096 -o a.png
     sleep $delay
     interrupt INT 130
     check_nothing_left
