@@ -79,9 +79,10 @@ std::vector<Chunk> cut_into_chunks(const Source& source, std::size_t chunk_bytes
 
 void ChunkBuffer::read(const Source& source, const Chunk& chunk) {
   size_ = static_cast<std::size_t>(chunk.end - chunk.begin);
-  if (bytes_.size() < size_ + padding) bytes_.resize(size_ + padding);
-  source.read(chunk.begin, bytes_.data(), size_);
-  std::memset(bytes_.data() + size_, '\n', padding);
+  if (bytes_.size() < size_ + 2 * padding) bytes_.resize(size_ + 2 * padding);
+  std::memset(bytes_.data(), '\n', padding);
+  source.read(chunk.begin, begin(), size_);
+  std::memset(end(), '\n', padding);
 }
 
 } // namespace fastrt

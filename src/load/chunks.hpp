@@ -20,13 +20,13 @@ struct Chunk {
 // behind a byte order mark. Throws InputError for UTF-16.
 std::vector<Chunk> cut_into_chunks(const Source& source, std::size_t chunk_bytes, int threads);
 
-// Memory for one chunk at a time, with line feeds behind the text for those that read ahead.
+// Memory for one chunk at a time, with line feeds before and behind the text for those that look beyond it.
 class ChunkBuffer {
 public:
-  static constexpr std::size_t padding = 128;
+  static constexpr std::size_t padding = 128; // before and behind
   void read(const Source& source, const Chunk& chunk);
-  char* begin() { return bytes_.data(); }
-  char* end() { return bytes_.data() + size_; }
+  char* begin() { return bytes_.data() + padding; }
+  char* end() { return begin() + size_; }
 
 private:
   std::vector<char> bytes_;

@@ -7,6 +7,7 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace fastrt {
 
@@ -56,7 +57,7 @@ void EventReport::sort() {
 }
 
 // Only what will be shown needs a line number.
-void EventReport::place(const Source& source) {
+void EventReport::place(const Source& source, const std::vector<LineAnchor>& anchors) {
   std::map<std::string, std::size_t> shown;
   std::vector<std::uint64_t> offsets;
   std::vector<Event*> events;
@@ -65,23 +66,24 @@ void EventReport::place(const Source& source) {
     offsets.push_back(event.offset);
     events.push_back(&event);
   }
-  const std::vector<Place> places = places_of(source, offsets);
+  const std::vector<Place> places = places_of(source, anchors, offsets);
   for (std::size_t i = 0; i < events.size(); ++i) {
     events[i]->message = located(source, places[i], events[i]->message);
     events[i]->placed = true;
   }
 }
 
-void EventReport::deliver(const Source& source, bool strict, Diagnostics& diagnostics) {
+void EventReport::deliver(const Source& source, const std::vector<LineAnchor>& anchors, bool strict,
+                          Diagnostics& diagnostics) {
   sort();
   const auto fatal = std::find_if(events_.begin(), events_.end(),
                                   [strict](const Event& event) { return strict || event.error; });
   if (fatal != events_.end()) {
     events_ = {std::move(*fatal)};
-    place(source);
+    place(source, anchors);
     throw InputError(events_.front().message);
   }
-  place(source);
+  place(source, anchors);
   for (const Event& event : events_) diagnostics.warn(event.kind, event.message);
   for (const auto& [kind, count] : extra_)
     for (std::size_t i = 0; i < count; ++i) diagnostics.warn(kind, {});
@@ -89,7 +91,7 @@ void EventReport::deliver(const Source& source, bool strict, Diagnostics& diagno
 
 void EventReport::pass_on(const Source& source, EventLog& log, std::uint64_t offset) {
   sort();
-  place(source);
+  place(source, {});
   for (Event& event : events_) {
     event.offset = offset;
     log.failed_ = log.failed_ || event.error;
@@ -100,55 +102,53 @@ void EventReport::pass_on(const Source& source, EventLog& log, std::uint64_t off
 
 namespace {
 
-// Counts lines while the bytes of a file go by.
+// Where a reader is that counts lines.
 class LineCounter {
 public:
   void step(char c) {
-    if (c == '\n' && after_return_) {
-      after_return_ = false;
+    if (c == '\n' || c == '\r') {
+      line_ += c == '\n' && after_return_ ? 0 : 1;
       start_ = position_ + 1;
-    } else if (c == '\n' || c == '\r') {
-      ++line_;
-      start_ = position_ + 1;
-      after_return_ = c == '\r';
-    } else {
-      after_return_ = false;
     }
+    after_return_ = c == '\r';
     ++position_;
+  }
+  void jump(const LineAnchor& anchor) {
+    position_ = start_ = anchor.offset;
+    line_ = anchor.lines_before + 1;
+    after_return_ = false;
   }
   std::uint64_t position() const { return position_; }
   Place place() const { return {line_, static_cast<std::size_t>(position_ - start_) + 1}; }
-  void skip_mark() { start_ = 3; }
 
 private:
-  std::uint64_t position_ = 0, start_ = 0;
-  std::size_t line_ = 1;
+  std::uint64_t position_ = 0, start_ = 0, line_ = 1;
   bool after_return_ = false;
 };
 
 } // namespace
 
-std::vector<Place> places_of(const Source& source, const std::vector<std::uint64_t>& offsets) {
+std::vector<Place> places_of(const Source& source, const std::vector<LineAnchor>& anchors,
+                             const std::vector<std::uint64_t>& offsets) {
   std::vector<Place> places(offsets.size());
-  constexpr std::uint64_t piece = std::uint64_t{1} << 18U;
-  std::vector<char> bytes(piece);
+  constexpr std::uint64_t piece = 4096;
+  std::array<char, piece> bytes{};
   LineCounter counter;
-  std::size_t next = 0;
+  auto anchor = anchors.begin();
   try {
-    while (next != offsets.size()) {
-      const std::uint64_t begin = counter.position();
-      const std::uint64_t size = std::min(piece, source.size() - begin);
-      source.read(begin, bytes.data(), size);
-      if (begin == 0 && size >= 3 && std::string_view(bytes.data(), 3) == "\xEF\xBB\xBF") counter.skip_mark();
-      for (std::uint64_t i = 0;; ++i) {
-        for (; next != offsets.size() && offsets[next] <= begin + i; ++next) places[next] = counter.place();
-        if (i == size || next == offsets.size()) break;
-        counter.step(bytes[i]);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const std::uint64_t offset = std::min(offsets[i], source.size());
+      for (; anchor != anchors.end() && anchor->offset <= offset; ++anchor)
+        if (anchor->offset >= counter.position()) counter.jump(*anchor);
+      while (counter.position() < offset) {
+        const std::uint64_t size = std::min(piece, offset - counter.position());
+        source.read(counter.position(), bytes.data(), size);
+        for (std::uint64_t k = 0; k < size; ++k) counter.step(bytes[k]);
       }
-      if (size == 0) break;
+      places[i] = counter.place();
     }
   } catch (const InputError&) {
-    // The file shrank meanwhile: the message has to do without a place.
+    // The file shrank meanwhile: the messages have to do without a place.
   }
   return places;
 }

@@ -24,6 +24,12 @@ struct Event {
   std::string message;
 };
 
+// A place where a line begins, and how many lines lie before it.
+struct LineAnchor {
+  std::uint64_t offset;
+  std::uint64_t lines_before;
+};
+
 // What was found wrong in one piece of a file, in the order of the file. Of a kind of warning only as many
 // are kept as Diagnostics can show; the rest are counted.
 class EventLog {
@@ -57,13 +63,14 @@ public:
   void take(EventLog log);
   // Throws InputError for the first error, or with `strict` for the first event; else hands the warnings to
   // `diagnostics`, each with file:line:column.
-  void deliver(const Source& source, bool strict, Diagnostics& diagnostics);
+  void deliver(const Source& source, const std::vector<LineAnchor>& anchors, bool strict,
+               Diagnostics& diagnostics);
   // Hands everything to the log of another file that refers to this one there, at `offset`.
   void pass_on(const Source& source, EventLog& log, std::uint64_t offset);
 
 private:
   void sort();
-  void place(const Source& source);
+  void place(const Source& source, const std::vector<LineAnchor>& anchors);
 
   std::vector<Event> events_;
   std::set<std::pair<std::string, std::string>> keys_;
@@ -74,7 +81,9 @@ struct Place {
   std::size_t line = 0, column = 0; // from 1; 0 when the file can't be read any more
 };
 
-// Lines and columns of ascending offsets, by reading the file up to the last of them.
-std::vector<Place> places_of(const Source& source, const std::vector<std::uint64_t>& offsets);
+// Lines and columns of ascending offsets, by reading the file from the last of the ascending anchors before
+// each.
+std::vector<Place> places_of(const Source& source, const std::vector<LineAnchor>& anchors,
+                             const std::vector<std::uint64_t>& offsets);
 
 } // namespace fastrt

@@ -45,10 +45,20 @@ bool take_exponent(const char*& p, int& exponent) {
   const char* q = p + 1;
   const bool negative = *q == '-';
   if (negative || *q == '+') ++q;
-  const DigitRun run = take_eight(q);
+  const DigitRun run = take_digits(q);
   if (run.count == 0 || run.count > 3) return false;
   exponent += negative ? -static_cast<int>(run.value) : static_cast<int>(run.value);
   p = q + run.count;
+  return true;
+}
+
+bool take_long_index(const char*& p, std::uint32_t& value) {
+  std::uint64_t wide = 0;
+  const char* q = p;
+  for (; is_digit(*q) && q - p < 11; ++q) wide = wide * 10 + static_cast<std::uint64_t>(*q - '0');
+  if (wide > std::numeric_limits<std::uint32_t>::max()) return false;
+  p = q;
+  value = static_cast<std::uint32_t>(wide);
   return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decimal text to numbers: a fast way for what exporters write, and a careful one that says what is wrong.
-// Both give the correctly rounded float. The fast functions read up to 16 bytes past what they take.
+// Both give the correctly rounded float. The fast functions read up to 8 bytes past what they take.
 #pragma once
 
 #include <array>
@@ -20,19 +20,35 @@ struct DigitRun {
   std::uint32_t value;
 };
 
-inline DigitRun take_eight(const char* p) {
+[[gnu::always_inline]] inline DigitRun take_digits(const char* p) {
   std::uint64_t text = 0;
   std::memcpy(&text, p, sizeof text);
   const std::uint64_t digits = text - 0x3030303030303030U;
   // The high bit of a byte ends up set if it is below '0' or above '9'; a borrow only spoils later bytes.
   const std::uint64_t others = ((text + 0x4646464646464646U) | digits | text) & 0x8080808080808080U;
-  const int count = others == 0 ? 8 : std::countr_zero(others) / 8;
-  if (count == 0) return {0, 0};
-  std::uint64_t x = digits << (64U - 8U * static_cast<unsigned>(count));
+  const int count = std::countr_zero(others) / 8;
+  const unsigned half_shift = 32U - 4U * static_cast<unsigned>(count); // in two steps: 64 at once is too far
+  std::uint64_t x = (digits << half_shift) << half_shift;
   x = x * 10 + (x >> 8U);
   constexpr std::uint64_t pairs = 0x000000FF000000FFU;
   x = ((x & pairs) * 0x000F424000000064U + ((x >> 16U) & pairs) * 0x0000271000000001U) >> 32U;
   return {count, static_cast<std::uint32_t>(x)};
+}
+
+// p + count, by branches: the processor guesses the usual counts and goes on without waiting for the digits.
+[[gnu::always_inline]] inline const char* step_over(const char* p, int count) {
+  switch (count) {
+  case 4:
+    return p + 4;
+  case 5:
+    return p + 5;
+  case 6:
+    return p + 6;
+  case 7:
+    return p + 7;
+  default:
+    return p + count;
+  }
 }
 
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -48,7 +64,7 @@ bool take_exponent(const char*& p, int& exponent);
 
 // Takes a number at p. False, and p unchanged, if there is none or if it needs parse_number. What follows it
 // is for the caller to check.
-inline bool take_float(const char*& p, float& value) {
+[[gnu::always_inline]] inline bool take_float(const char*& p, float& value) {
   const char* q = p;
   const bool negative = *q == '-';
   if (negative || *q == '+') ++q;
@@ -59,13 +75,12 @@ inline bool take_float(const char*& p, float& value) {
   int exponent = 0;
   if (*q == '.') {
     ++q;
-    for (;;) {
-      const DigitRun run = take_eight(q);
-      mantissa = mantissa * small_powers_of_ten[static_cast<std::size_t>(run.count)] + run.value;
-      q += run.count;
-      exponent -= run.count;
-      if (run.count < 8 || exponent < -16) break;
-    }
+    const DigitRun run = take_digits(q);
+    mantissa = mantissa * small_powers_of_ten[static_cast<std::size_t>(run.count)] + run.value;
+    q = step_over(q, run.count);
+    exponent = -run.count;
+    if (run.count == 8)
+      for (; is_digit(*q); ++q, --exponent) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*q - '0');
     digits -= exponent;
   }
   if (digits == 0 || digits > 19) return false; // beyond 19 the mantissa may have wrapped around
@@ -88,22 +103,16 @@ inline bool take_float(const char*& p, float& value) {
   return true;
 }
 
-// Takes up to ten digits at p. False, and p unchanged, if there is none or the number exceeds 32 bits.
-inline bool take_index(const char*& p, std::uint32_t& value) {
-  const DigitRun run = take_eight(p);
-  if (run.count == 0) return false;
-  if (run.count < 8) {
-    p += run.count;
-    value = run.value;
-    return true;
-  }
-  std::uint64_t wide = run.value;
-  const char* q = p + 8;
-  for (; is_digit(*q) && q - p < 11; ++q) wide = wide * 10 + static_cast<std::uint64_t>(*q - '0');
-  if (wide > std::numeric_limits<std::uint32_t>::max()) return false;
-  p = q;
-  value = static_cast<std::uint32_t>(wide);
-  return true;
+// The rest of take_index for eight digits and more.
+bool take_long_index(const char*& p, std::uint32_t& value);
+
+// Takes the digits at p. False if there is none or the number exceeds 32 bits.
+[[gnu::always_inline]] inline bool take_index(const char*& p, std::uint32_t& value) {
+  const DigitRun run = take_digits(p);
+  if (run.count == 8) return take_long_index(p, value);
+  p = step_over(p, run.count);
+  value = run.value;
+  return run.count != 0;
 }
 
 enum class NumberFault { none, not_a_number, not_finite, out_of_range };

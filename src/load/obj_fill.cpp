@@ -4,6 +4,7 @@
 #include "src/load/number.hpp"
 #include "src/load/text.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace fastrt {
@@ -15,13 +16,16 @@ void ObjFiller::fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& st
   now_ = start;
   last_ = start.before;
   last_ += counts;
+  totals_ = plan_.totals;
   result_ = &result;
   char* p = buffer.begin();
   while (p < buffer.end()) {
     if (is_line_end(*p) || (!with_care && is_blank(*p))) {
       ++p;
-    } else if (with_care || !take_plain(p)) {
-      if (!read_line(p, buffer.end())) return;
+    } else if (const char* q = p; !with_care && take_plain(q)) {
+      p += q - p;
+    } else if (!read_line(p, buffer.end())) {
+      return;
     }
   }
   if (chunk.torn) {
@@ -34,98 +38,117 @@ void ObjFiller::fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& st
   if (!complete) source_.fail_changed();
 }
 
-bool ObjFiller::take_plain(char*& p) {
-  if (p[0] == 'v') return take_vertex(p, p);
-  if (p[0] == 'f' && is_blank(p[1])) return take_face(p + 2, p);
-  return false;
-}
-
-bool ObjFiller::take_numbers(const char*& p, std::span<float> numbers, std::size_t least,
-                             std::size_t& count) const {
-  const char* q = p;
-  for (count = 0; count != numbers.size(); ++count) {
-    while (is_blank(*q)) ++q;
-    if (count >= least && is_line_end(*q)) break;
-    if (!take_float(q, numbers[count])) return false;
-    if (!is_blank(*q) && !is_line_end(*q)) return false;
-  }
-  while (is_blank(*q)) ++q;
-  if (!is_line_end(*q)) return false;
-  p = q;
-  return true;
-}
-
-bool ObjFiller::take_vertex(const char* p, char*& next) {
-  std::array<float, 3> numbers;
-  std::size_t count = 0;
-  const char* const start = p;
-  if (is_blank(p[1])) {
-    p += 2;
-    if (!take_numbers(p, numbers, 3, count)) return false;
-    put_position(numbers);
-  } else if (p[1] == 'n' && is_blank(p[2])) {
-    p += 3;
-    if (!take_numbers(p, numbers, 3, count)) return false;
-    if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) return false;
-    put_normal(numbers);
-  } else if (p[1] == 't' && is_blank(p[2])) {
-    p += 3;
-    if (!take_numbers(p, numbers, 2, count)) return false;
-    put_uv(numbers);
-  } else {
-    return false;
-  }
-  next += p - start;
-  return true;
-}
-
 namespace {
 
+// Takes `least` numbers or as many more as there is room for, and the blanks up to the line end.
+template <std::size_t most>
+[[gnu::always_inline]] inline bool take_numbers(const char*& p, std::size_t least,
+                                                std::array<float, most>& numbers) {
+  for (std::size_t count = 0; count != most; ++count) {
+    while (is_blank(*p)) ++p;
+    if (count >= least && is_line_end(*p)) break;
+    if (!take_float(p, numbers[count])) return false;
+    if (!is_blank(*p) && !is_line_end(*p)) return false;
+  }
+  while (is_blank(*p)) ++p;
+  return is_line_end(*p);
+}
+
 // Takes "17" or "-3" at p as an index from 0. `so_far`: how many there are before this line.
-bool take_reference(const char*& p, std::uint64_t total, std::uint64_t so_far, std::uint32_t& index) {
-  const bool negative = *p == '-';
-  if (negative) ++p;
+[[gnu::always_inline]] inline bool take_reference(const char*& p, std::uint64_t total, std::uint64_t so_far,
+                                                  std::uint32_t& index) {
   std::uint32_t value = 0;
+  if (*p != '-') {
+    if (!take_index(p, value)) return false;
+    index = value - 1U;
+    return index < total;
+  }
+  ++p;
   if (!take_index(p, value)) return false;
-  index = negative ? static_cast<std::uint32_t>(so_far) - value : value - 1U;
-  return index < (negative ? so_far : total);
+  index = static_cast<std::uint32_t>(so_far) - value;
+  return index < so_far;
+}
+
+// Takes v, v/t, v//n or v/t/n.
+[[gnu::always_inline]] inline bool take_corner(const char*& p, const ObjCounts& totals,
+                                               const ObjCounts& so_far, Corner& corner) {
+  corner.t = corner.n = no_index;
+  if (!take_reference(p, totals.positions, so_far.positions, corner.v)) return false;
+  if (*p == '/') {
+    ++p;
+    if (*p != '/' && !take_reference(p, totals.uvs, so_far.uvs, corner.t)) return false;
+    if (*p == '/') {
+      ++p;
+      if (!take_reference(p, totals.normals, so_far.normals, corner.n)) return false;
+    }
+  }
+  return is_blank(*p) || is_line_end(*p);
 }
 
 } // namespace
 
-bool ObjFiller::take_corner(const char*& p, Corner& corner) const {
-  corner.t = corner.n = no_index;
-  if (!take_reference(p, plan_.totals.positions, now_.before.positions, corner.v)) return false;
-  if (*p != '/') return true;
-  ++p;
-  if (*p != '/') {
-    if (!take_reference(p, plan_.totals.uvs, now_.before.uvs, corner.t)) return false;
-    if (*p != '/') return true;
+bool ObjFiller::take_plain(const char*& next) {
+  const char* p = next;
+  if (p[0] == 'f' && is_blank(p[1])) {
+    p += 2;
+    if (!take_face(p)) return false;
+  } else if (p[0] == 'v' && is_blank(p[1])) {
+    std::array<float, 3> numbers;
+    p += 2;
+    if (!take_numbers(p, 3, numbers)) return false;
+    put_position(numbers);
+  } else if (p[0] == 'v' && (p[1] == 'n' || p[1] == 't') && is_blank(p[2])) {
+    std::array<float, 3> numbers{};
+    const bool is_normal = p[1] == 'n';
+    p += 3;
+    if (!take_numbers(p, is_normal ? 3 : 2, numbers)) return false;
+    if (is_normal && numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) return false;
+    if (is_normal)
+      put_normal(numbers);
+    else
+      put_uv(numbers);
+  } else {
+    return false;
   }
-  ++p;
-  return take_reference(p, plan_.totals.normals, now_.before.normals, corner.n);
+  next = p;
+  return true;
 }
 
-bool ObjFiller::take_face(const char* p, char*& next) {
-  const char* const start = p;
+bool ObjFiller::take_face(const char*& p) {
+  const ObjCounts so_far = now_.before;
+  std::array<Corner, 4> corners;
   std::size_t count = 0;
-  bool mixed = false;
-  for (;;) {
+  for (;; ++count) {
     while (is_blank(*p)) ++p;
     if (is_line_end(*p)) break;
-    if (count == max_face_corners) return false;
-    if (count == corners_.size()) corners_.resize(2 * count + 16);
-    Corner& corner = corners_[count];
-    if (!take_corner(p, corner) || !(is_blank(*p) || is_line_end(*p))) return false;
-    const Corner& first = corners_.front();
-    mixed |=
-        (corner.t == no_index) != (first.t == no_index) || (corner.n == no_index) != (first.n == no_index);
-    ++count;
+    if (count == corners.size()) return take_polygon(p, corners);
+    if (!take_corner(p, totals_, so_far, corners[count])) return false;
   }
-  if (count < 3 || mixed) return false;
-  put_face({corners_.data(), count});
-  next += 2 + (p - start);
+  if (count < 3 || !match({corners.data(), count})) return false;
+  put_face({corners.data(), count});
   return true;
+}
+
+// Goes on behind the fourth corner.
+bool ObjFiller::take_polygon(const char*& p, std::span<const Corner> first) {
+  corners_.assign(first.begin(), first.end());
+  while (!is_line_end(*p)) {
+    Corner corner;
+    if (corners_.size() == max_face_corners || !take_corner(p, totals_, now_.before, corner)) return false;
+    corners_.push_back(corner);
+    while (is_blank(*p)) ++p;
+  }
+  if (!match(corners_)) return false;
+  put_face(corners_);
+  return true;
+}
+
+// Whether all corners have, or have not, texture coordinates and normals.
+bool ObjFiller::match(std::span<const Corner> corners) {
+  const auto differs = [&first = corners[0]](const Corner& corner) {
+    return (corner.t == no_index) != (first.t == no_index) || (corner.n == no_index) != (first.n == no_index);
+  };
+  return std::none_of(corners.begin() + 1, corners.end(), differs);
 }
 
 void ObjFiller::put_position(std::span<const float> numbers) {

@@ -29,12 +29,11 @@ public:
             bool with_care, ObjChunkResult& result);
 
 private:
-  // The fast way: false, and nothing done, for everything that is not plain.
-  bool take_plain(char*& p);
-  bool take_numbers(const char*& p, std::span<float> numbers, std::size_t least, std::size_t& count) const;
-  bool take_vertex(const char* p, char*& next);
-  bool take_face(const char* p, char*& next);
-  bool take_corner(const char*& p, Corner& corner) const;
+  // The fast way: false, and nothing done, for everything that is not plain. Else `next` is at the line end.
+  bool take_plain(const char*& next);
+  bool take_face(const char*& p);
+  bool take_polygon(const char*& p, std::span<const Corner> first);
+  static bool match(std::span<const Corner> corners);
 
   // The careful way: knows everything and says what is wrong. False after an error.
   bool read_line(char*& p, char* limit);
@@ -65,7 +64,8 @@ private:
   const char* text_ = nullptr;
   std::uint64_t chunk_begin_ = 0;
   std::uint64_t line_offset_ = 0;
-  ObjState now_;   // `before` counts what has been read so far
+  ObjState now_; // `before` counts what has been read so far
+  ObjCounts totals_;
   ObjCounts last_; // what `before` will be at the chunk's end
   ObjChunkResult* result_ = nullptr;
   std::vector<Corner> corners_;

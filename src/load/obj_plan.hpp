@@ -36,13 +36,22 @@ struct Polygon {
   std::uint32_t corners;
 };
 
-// What the second pass has to say about a chunk.
+// Something about a triangle: faces keep no place in the file.
+struct Finding {
+  std::uint64_t triangle;
+  const char* kind;
+  const char* message;
+};
+
+// What the second and third pass have to say about a chunk.
 struct ObjChunkResult {
   EventLog log;
   std::vector<Polygon> polygons;
   bool uses_default_material = false;
   bool uses_normals = false, uses_uvs = false;
   bool has_zero_normal = false;
+  std::vector<Finding> findings;      // in the order of the triangles
+  std::vector<std::uint32_t> dropped; // triangles, ascending
 };
 
 } // namespace fastrt

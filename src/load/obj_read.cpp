@@ -94,7 +94,6 @@ bool ObjFiller::read_face(std::string_view line) {
   corners_.clear();
   Words words(line);
   words.next();
-  bool mixed = false;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (corners_.size() == max_face_corners) {
       result_->log.fail(line_offset_ + words.position(), "a face may have " +
@@ -105,9 +104,6 @@ bool ObjFiller::read_face(std::string_view line) {
     Corner corner{};
     if (!read_corner(line, word, corner)) return false;
     corners_.push_back(corner);
-    const Corner& first = corners_.front();
-    mixed |=
-        (corner.t == no_index) != (first.t == no_index) || (corner.n == no_index) != (first.n == no_index);
     result_->uses_normals |= corner.n != no_index;
     result_->uses_uvs |= corner.t != no_index;
   }
@@ -116,7 +112,7 @@ bool ObjFiller::read_face(std::string_view line) {
                       "face of " + std::to_string(corners_.size()) + " vertices skipped");
     return true;
   }
-  if (mixed)
+  if (!match(corners_))
     result_->log.warn(line_offset_, "mixed face",
                       "not all corners of the face have texture coordinates or normals");
   put_face(corners_);

@@ -11,6 +11,7 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <utility>
@@ -56,7 +57,7 @@ private:
   std::vector<ObjState> states_;
   std::vector<ObjChunkResult> results_;
   ObjPlan plan_;
-  EventLog library_log_;
+  EventLog shared_log_; // of what belongs to no chunk
   SceneDesc desc_;
   Column<std::uint32_t> smoothing_;
   bool failed_ = false;
@@ -75,8 +76,8 @@ void ObjReader::read_libraries() {
   MaterialSet materials;
   for (const ObjSummary& summary : summaries_)
     for (const auto& [offset, names] : summary.libraries)
-      if (settings_.read_library && !library_log_.failed())
-        settings_.read_library(names, offset, materials, library_log_);
+      if (settings_.read_library && !shared_log_.failed())
+        settings_.read_library(names, offset, materials, shared_log_);
   desc_.materials = std::move(materials.materials);
   plan_.materials = std::move(materials.ids);
   plan_.default_material = static_cast<std::uint32_t>(desc_.materials.size());
@@ -175,22 +176,35 @@ void ObjReader::check_triangles() {
   bool drop_zero_normals = false;
   for (const ObjChunkResult& result : results_)
     drop_zero_normals = drop_zero_normals || result.has_zero_normal;
-  std::vector<TriangleCheck> checks(static_cast<std::size_t>(settings_.threads),
-                                    TriangleCheck(source_, desc_));
-  std::atomic<std::size_t> dropped{0};
+  std::vector<TriangleCheck> checks(static_cast<std::size_t>(settings_.threads), TriangleCheck(desc_));
   parallel_for(chunks_.size(), settings_.threads, [&](std::size_t i, std::size_t thread) {
     const std::uint64_t first = states_[i].before.triangles;
-    dropped += checks[thread].run(chunks_[i], first, first + summaries_[i].counts.triangles,
-                                  drop_zero_normals, results_[i]);
+    checks[thread].run(first, first + summaries_[i].counts.triangles, drop_zero_normals, results_[i]);
   });
-  if (dropped != 0) drop_marked(desc_.triangles, plan_.has_smoothing ? &smoothing_ : nullptr);
+  std::vector<std::uint32_t> dropped;
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    const ObjChunkResult& result = results_[i];
+    report_findings(source_, chunks_[i], states_[i].before.triangles, result.findings, shared_log_);
+    dropped.insert(dropped.end(), result.dropped.begin(), result.dropped.end());
+  }
+  TriangleColumns& rows = desc_.triangles;
+  const std::array columns = {&rows.v0, &rows.v1, &rows.v2, &rows.n0,       &rows.n1,     &rows.n2,
+                              &rows.t0, &rows.t1, &rows.t2, &rows.material, &rows.object, &smoothing_};
+  parallel_for(columns.size(), settings_.threads,
+               [&](std::size_t i, std::size_t) { drop_rows(*columns[i], dropped); });
 }
 
 void ObjReader::report(Diagnostics& diagnostics) {
   EventReport report;
-  report.take(std::move(library_log_));
+  report.take(std::move(shared_log_));
   for (ObjChunkResult& result : results_) report.take(std::move(result.log));
-  report.deliver(source_, settings_.strict, diagnostics);
+  std::vector<LineAnchor> anchors;
+  std::uint64_t lines = 0;
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    anchors.push_back({chunks_[i].begin, lines});
+    lines += summaries_[i].lines;
+  }
+  report.deliver(source_, anchors, settings_.strict, diagnostics);
   if (desc_.triangles.size() != 0) return;
   const std::string message = source_.name() + ": no primitives";
   if (settings_.strict) throw InputError(message);

@@ -36,7 +36,23 @@ std::size_t triangles_in_face(std::string_view rest) {
 
 namespace {
 
-constexpr std::uint64_t bits_from(unsigned position) { return ~std::uint64_t{0} << position; }
+// Without the instruction, which not every x86-64 has.
+unsigned count_bits(std::uint64_t bits) {
+  bits -= (bits >> 1U) & 0x5555555555555555U;
+  bits = (bits & 0x3333333333333333U) + ((bits >> 2U) & 0x3333333333333333U);
+  bits = (bits + (bits >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
+  return static_cast<unsigned>((bits * 0x0101010101010101U) >> 56U);
+}
+
+bool ends_word(char c) { return is_blank(c) || is_line_end(c); }
+
+// A line as far as it has been seen.
+struct LineSoFar {
+  char* begin;
+  char* word = nullptr; // the first one
+  std::size_t words = 0;
+  bool marked = false, slashed = false;
+};
 
 class ObjScan {
 public:
@@ -45,18 +61,11 @@ public:
 
   ObjSummary run() {
     __m128i nuls = _mm_setzero_si128();
-    line_ = begin_;
-    char* block = begin_;
-    // One turn more than the text needs: the line feeds behind it end the last line.
-    while (block < end_ + 1) {
-      const ByteMasks masks = masks_of(block, nuls);
-      char* next = scan_block(block, masks);
-      block = next;
-    }
+    line_.begin = begin_;
+    // The line feed behind the text ends the last line.
+    for (char* block = begin_; block <= end_;) block = scan_block(block, masks_of(block, nuls));
     if (_mm_movemask_epi8(nuls) != 0) summary_.needs_care = true;
-    if (last_material_ != nullptr)
-      summary_.material.emplace(last_material_,
-                                static_cast<std::size_t>(last_material_end_ - last_material_));
+    if (last_material_.data() != nullptr) summary_.material.emplace(last_material_);
     return std::move(summary_);
   }
 
@@ -65,85 +74,84 @@ private:
   char* scan_block(char* block, const ByteMasks& masks) {
     const std::uint64_t starts = ~masks.blanks & ((masks.blanks << 1U) | (after_blank_ ? 1U : 0U));
     after_blank_ = (masks.blanks >> 63U) != 0;
-    unsigned from = 0;
+    LineSoFar line = line_;
+    std::uint64_t left = ~std::uint64_t{0}; // of the block
+    const auto add = [&](std::uint64_t part) {
+      const std::uint64_t here = starts & part;
+      if (line.word == nullptr && here != 0) line.word = block + std::countr_zero(here);
+      line.words += count_bits(here);
+      line.marked |= (masks.marks & part) != 0;
+      line.slashed |= (masks.slashes & part) != 0;
+    };
     for (std::uint64_t ends = masks.line_ends; ends != 0; ends &= ends - 1) {
-      const auto at = static_cast<unsigned>(std::countr_zero(ends));
-      const std::uint64_t part = bits_from(from) & ~bits_from(at);
-      add_part(block, starts & part, (masks.marks & part) != 0, (masks.slashes & part) != 0);
-      if (word_ != nullptr) {
-        if (char* next = end_line(block + at)) return next;
-      }
-      start_line(block + at + 1);
-      from = at + 1;
-      if (from == 64) return block + 64;
+      char* const end = block + std::countr_zero(ends);
+      add(left & (ends ^ (ends - 1)));
+      if (line.word != nullptr && !count_plain(line, end)) return read_statement(line.begin);
+      count_line_end(end);
+      left &= ~(ends ^ (ends - 1));
+      line = {end + 1};
     }
-    const std::uint64_t part = bits_from(from);
-    add_part(block, starts & part, (masks.marks & part) != 0, (masks.slashes & part) != 0);
+    add(left);
+    line_ = line;
     return block + 64;
   }
 
-  void add_part(char* block, std::uint64_t starts, bool marked, bool slashed) {
-    if (word_ == nullptr && starts != 0) word_ = block + std::countr_zero(starts);
-    for (; starts != 0; starts &= starts - 1) ++words_;
-    marked_ = marked_ || marked;
-    slashed_ = slashed_ || slashed;
-  }
-
-  void start_line(char* line) {
-    line_ = line;
-    word_ = nullptr;
-    words_ = 0;
-    marked_ = slashed_ = false;
-  }
-
-  // Null, or where to go on if the line was longer than it seemed.
-  char* end_line(char* end) {
-    if (end - line_ > static_cast<std::ptrdiff_t>(max_line_bytes)) summary_.needs_care = true;
-    if (*word_ == '#') return nullptr;
-    if (marked_) return read_statement();
-    if (*word_ == 'v') {
-      const std::size_t length = is_blank(word_[1]) || is_line_end(word_[1]) ? 1 : 2;
-      if (length == 1 || is_blank(word_[2]) || is_line_end(word_[2])) count_vertex({word_, length});
-    } else if (*word_ == 'f' && (is_blank(word_[1]) || word_ + 1 == end)) {
-      count_face(words_ < 3 ? 0 : words_ - 3);
-    } else {
-      return read_statement();
+  // False for what is not a plain vertex, face or comment.
+  bool count_plain(const LineSoFar& line, const char* end) {
+    if (end - line.begin > static_cast<std::ptrdiff_t>(max_line_bytes)) summary_.needs_care = true;
+    const char* word = line.word;
+    if (*word == '#') return true;
+    if (line.marked) return false;
+    if (*word == 'f' && ends_word(word[1])) {
+      count_face(line.words < 3 ? 0 : line.words - 3, line.slashed);
+      return true;
     }
-    return nullptr;
+    if (*word != 'v') return false;
+    const std::size_t length = ends_word(word[1]) ? 1 : 2;
+    if (length == 1 || ends_word(word[2])) count_vertex({word, length});
+    return true;
+  }
+
+  // A carriage return and a line feed are one; those behind the text are none.
+  void count_line_end(const char* p) {
+    if (p < end_ && !(p[0] == '\n' && p[-1] == '\r')) ++summary_.lines;
   }
 
   void count_vertex(std::string_view keyword) {
-    if (keyword == "v") ++summary_.counts.positions;
-    if (keyword == "vn") ++summary_.counts.normals;
-    if (keyword == "vt") ++summary_.counts.uvs;
+    ObjCounts& counts = summary_.counts;
+    if (keyword.size() == 1)
+      ++counts.positions;
+    else if (keyword == "vn")
+      ++counts.normals;
+    else if (keyword == "vt")
+      ++counts.uvs;
   }
 
-  void count_face(std::size_t triangles) {
+  void count_face(std::size_t triangles, bool slashed) {
     summary_.counts.triangles += triangles;
-    summary_.has_slash = summary_.has_slash || slashed_;
-    summary_.face_before_object = summary_.face_before_object || summary_.counts.objects == 0;
-    summary_.face_before_group = summary_.face_before_group || summary_.counts.groups == 0;
+    summary_.has_slash |= slashed;
+    summary_.face_before_object |= summary_.counts.objects == 0;
+    summary_.face_before_group |= summary_.counts.groups == 0;
   }
 
-  char* read_statement() {
-    const Line line = take_line(line_, end_);
+  // Reads the line there with its continuations. Returns the one after.
+  char* read_statement(char* begin) {
+    const Line line = take_line(begin, end_);
     if (line.end - line.begin > static_cast<std::ptrdiff_t>(max_line_bytes)) summary_.needs_care = true;
+    summary_.lines += line.line_ends;
     Words words(line.text());
     const std::string_view keyword = words.next();
     const std::string_view rest = words.rest();
-    if (keyword.starts_with('v')) {
+    if (keyword == "v" || keyword == "vn" || keyword == "vt") {
       count_vertex(keyword);
     } else if (keyword == "f") {
-      slashed_ = rest.find('/') != std::string_view::npos;
-      count_face(triangles_in_face(rest));
+      count_face(triangles_in_face(rest), rest.find('/') != std::string_view::npos);
     } else if (keyword == "o") {
       ++summary_.counts.objects;
     } else if (keyword == "g") {
       ++summary_.counts.groups;
     } else if (keyword == "usemtl") {
-      const std::string_view name = name_in(rest);
-      last_material_ = name.data();
-      last_material_end_ = name.data() + name.size();
+      last_material_ = name_in(rest);
     } else if (keyword == "s") {
       summary_.smoothing = smoothing_group_in(rest).value_or(0);
       summary_.has_smoothing = summary_.has_smoothing || *summary_.smoothing != 0;
@@ -151,7 +159,7 @@ private:
       summary_.libraries.push_back(
           {chunk_begin_ + static_cast<std::uint64_t>(line.begin - begin_), std::string(name_in(rest))});
     }
-    start_line(line.next);
+    line_ = {line.next};
     after_blank_ = true;
     return line.next;
   }
@@ -160,14 +168,9 @@ private:
   char* end_;
   std::uint64_t chunk_begin_;
   ObjSummary summary_;
-  // The line so far.
-  char* line_ = nullptr;
-  char* word_ = nullptr; // its first word
-  std::size_t words_ = 0;
-  bool marked_ = false, slashed_ = false;
+  LineSoFar line_{};
   bool after_blank_ = true; // whether the byte before the block is one
-  const char* last_material_ = nullptr;
-  const char* last_material_end_ = nullptr;
+  std::string_view last_material_;
 };
 
 } // namespace

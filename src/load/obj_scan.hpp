@@ -24,6 +24,7 @@ struct ObjCounts {
 
 struct ObjSummary {
   ObjCounts counts;
+  std::uint64_t lines = 0; // line ends
   bool face_before_object = false, face_before_group = false;
   bool has_slash = false;     // in a face
   bool needs_care = false;    // holds a NUL or a line that is too long

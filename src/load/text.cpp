@@ -30,14 +30,15 @@ char* find_line_end(char* begin, char* limit) {
 
 Line take_line(char* begin, char* limit) {
   char* part = begin;
-  for (;;) {
+  for (std::size_t line_ends = 0;;) {
     char* end = find_line_end(part, limit);
     const bool at_limit = end == limit;
     char* next = at_limit ? limit : end + (end[0] == '\r' && end + 1 != limit && end[1] == '\n' ? 2 : 1);
+    line_ends += at_limit ? 0 : 1;
     const bool marked = end != part && end[-1] == '\\' && !has_comment(part, end);
-    if (!marked) return {begin, end, next};
+    if (!marked) return {begin, end, next, line_ends};
     end[-1] = ' ';
-    if (next == limit) return {begin, end, next, true};
+    if (next == limit) return {begin, end, next, line_ends, true};
     std::fill(end, next, ' ');
     part = next;
   }

@@ -19,6 +19,7 @@ struct Line {
   char* begin;
   char* end;                      // at the line end, or at the buffer's end
   char* next;                     // the line after
+  std::size_t line_ends = 0;      // how many of them were passed
   bool ends_in_backslash = false; // at the end of the buffer, where nothing follows
   std::string_view text() const { return {begin, static_cast<std::size_t>(end - begin)}; }
 };

@@ -8,19 +8,17 @@
 
 namespace fastrt {
 
-std::size_t TriangleCheck::run(const Chunk& chunk, std::uint64_t first, std::uint64_t last,
-                               bool drop_zero_normals, ObjChunkResult& result) {
+void TriangleCheck::run(std::uint64_t first, std::uint64_t last, bool drop_zero_normals,
+                        ObjChunkResult& result) {
   findings_.clear();
   for (const Polygon& polygon : result.polygons) triangulate(polygon);
-  std::size_t dropped = 0;
   for (std::uint64_t i = first; i < last; ++i) {
     if (drop_zero_normals) forget_zero_normals(i);
-    if (can_be_hit(i)) continue;
-    desc_.triangles.v0[i] = no_index;
-    ++dropped;
+    if (!can_be_hit(i)) result.dropped.push_back(static_cast<std::uint32_t>(i));
   }
-  if (!findings_.empty()) report(chunk, first, result.log);
-  return dropped;
+  std::stable_sort(findings_.begin(), findings_.end(),
+                   [](const Finding& a, const Finding& b) { return a.triangle < b.triangle; });
+  result.findings = findings_;
 }
 
 TriangleCheck::Row TriangleCheck::corner_of(const Polygon& polygon, std::size_t corner) const {
@@ -84,21 +82,23 @@ void TriangleCheck::forget_zero_normals(std::size_t i) {
   }
 }
 
-// Faces have kept no place in the file, so the chunk is read once more to find those that will be shown.
-void TriangleCheck::report(const Chunk& chunk, std::uint64_t first, EventLog& log) {
-  std::stable_sort(findings_.begin(), findings_.end(),
-                   [](const Finding& a, const Finding& b) { return a.triangle < b.triangle; });
-  buffer_.read(source_, chunk);
-  char* p = buffer_.begin();
+void report_findings(const Source& source, const Chunk& chunk, std::uint64_t first,
+                     const std::vector<Finding>& findings, EventLog& log) {
+  ChunkBuffer buffer;
+  char* p = nullptr;
   std::uint64_t offset = chunk.begin, behind = first;
-  for (const Finding& finding : findings_) {
+  for (const Finding& finding : findings) {
     if (log.keeps(finding.kind)) {
-      while (p < buffer_.end() && behind <= finding.triangle) {
-        const Line line = take_line(p, buffer_.end());
+      if (p == nullptr) {
+        buffer.read(source, chunk);
+        p = buffer.begin();
+      }
+      while (p < buffer.end() && behind <= finding.triangle) {
+        const Line line = take_line(p, buffer.end());
         p = line.next;
         Words words(line.text());
         if (words.next() != "f") continue;
-        offset = chunk.begin + static_cast<std::uint64_t>(line.begin - buffer_.begin()) + words.position();
+        offset = chunk.begin + static_cast<std::uint64_t>(line.begin - buffer.begin()) + words.position();
         behind += triangles_in_face(words.rest());
       }
     }
@@ -106,20 +106,15 @@ void TriangleCheck::report(const Chunk& chunk, std::uint64_t first, EventLog& lo
   }
 }
 
-void drop_marked(TriangleColumns& rows, Column<std::uint32_t>* more) {
-  const auto keep_others = [&rows](Column<std::uint32_t>& column) {
-    if (column.empty()) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < column.size(); ++i)
-      if (rows.v0[i] != no_index) column[kept++] = column[i];
-    column.resize(kept);
-  };
-  for (auto* column : {&rows.v1, &rows.v2, &rows.n0, &rows.n1, &rows.n2, &rows.t0, &rows.t1, &rows.t2,
-                       &rows.material, &rows.object})
-    keep_others(*column);
-  if (more != nullptr) keep_others(*more);
-  auto* end = std::remove(rows.v0.begin(), rows.v0.end(), no_index);
-  rows.v0.resize(static_cast<std::size_t>(end - rows.v0.begin()));
+void drop_rows(Column<std::uint32_t>& column, const std::vector<std::uint32_t>& dropped) {
+  if (column.empty() || dropped.empty()) return;
+  std::uint32_t* target = column.begin() + dropped.front();
+  for (std::size_t k = 0; k < dropped.size(); ++k) {
+    const std::uint32_t* from = column.begin() + dropped[k] + 1;
+    const std::uint32_t* to = k + 1 < dropped.size() ? column.begin() + dropped[k + 1] : column.end();
+    target = std::copy(from, to, target);
+  }
+  column.resize(column.size() - dropped.size());
 }
 
 } // namespace fastrt

@@ -19,19 +19,13 @@ namespace fastrt {
 // Works on the triangles of one chunk at a time. Keeps its memory from one to the next.
 class TriangleCheck {
 public:
-  TriangleCheck(const Source& source, SceneDesc& desc) : source_(source), desc_(desc) {}
+  explicit TriangleCheck(SceneDesc& desc) : desc_(desc) {}
 
-  // Checks the triangles first .. last, which came from `chunk`. Those to be dropped are marked by v0 =
-  // no_index; returns how many. drop_zero_normals: corners whose normal is 0 lose it.
-  std::size_t run(const Chunk& chunk, std::uint64_t first, std::uint64_t last, bool drop_zero_normals,
-                  ObjChunkResult& result);
+  // Checks the triangles first .. last of a chunk, adding to the result's findings and dropped triangles.
+  // drop_zero_normals: corners whose normal is 0 lose it.
+  void run(std::uint64_t first, std::uint64_t last, bool drop_zero_normals, ObjChunkResult& result);
 
 private:
-  struct Finding {
-    std::uint64_t triangle;
-    const char* kind;
-    const char* message;
-  };
   using Row = std::array<std::uint32_t, 3>; // v, n, t of a corner
 
   void triangulate(const Polygon& polygon);
@@ -39,19 +33,21 @@ private:
   void put_row(std::size_t triangle, const std::array<Row, 3>& corners);
   bool can_be_hit(std::size_t triangle);
   void forget_zero_normals(std::size_t triangle);
-  void report(const Chunk& chunk, std::uint64_t first, EventLog& log);
 
-  const Source& source_;
   SceneDesc& desc_;
   PolygonTriangulator triangulator_;
   std::vector<PolygonTriangulator::Triangle> triangles_;
   std::vector<Row> corners_;
   std::vector<Vec3> points_;
   std::vector<Finding> findings_;
-  ChunkBuffer buffer_;
 };
 
-// Removes the rows whose v0 is no_index, from `more` too if it is not null.
-void drop_marked(TriangleColumns& rows, Column<std::uint32_t>* more);
+// Puts the findings of the triangles from `first` on, which came from `chunk`, into the log, each with the
+// place of its face: reads the chunk once more if some are to be kept.
+void report_findings(const Source& source, const Chunk& chunk, std::uint64_t first,
+                     const std::vector<Finding>& findings, EventLog& log);
+
+// Removes these rows, ascending, from a column.
+void drop_rows(Column<std::uint32_t>& column, const std::vector<std::uint32_t>& dropped);
 
 } // namespace fastrt
