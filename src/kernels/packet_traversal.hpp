@@ -80,9 +80,10 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, Packet& p, const PacketM
       if (leaf_group(leaf) == triangle_group) {
         const TriangleBlock& block = scene.triangles[b];
         if (block.primitive[i] < 0) break;
-        const TriangleSetup<PacketF> setup = set_up_triangle(
-            vertex(block, 0, i) - p.origin, vertex(block, 1, i) - p.origin, vertex(block, 2, i) - p.origin);
-        const TriangleLanes<PacketF> lanes = intersect_triangle(setup, p.dir);
+        const V3<PacketF> v0 = vertex(block, 0, i) - p.origin, v1 = vertex(block, 1, i) - p.origin,
+                          v2 = vertex(block, 2, i) - p.origin;
+        const TriangleLanes<PacketF> lanes = intersect_triangle(
+            set_up_triangle(v0, v1, v2), p.dir, [&] { return reach_of(v0, v1, v2, largest(p.origin)); });
         const PacketM hit = lanes.inside & active & (lanes.t > p.t_min);
         if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, lanes.t, block.primitive[i]);
       } else {

@@ -82,7 +82,8 @@ FASTRT_INLINE void meet_triangles(LoneRay& ray, const TriangleBlock& block) {
   const V3<B> a = load3<B>(block.x[0], block.y[0], block.z[0]) - ray.origin;
   const V3<B> b = load3<B>(block.x[1], block.y[1], block.z[1]) - ray.origin;
   const V3<B> c = load3<B>(block.x[2], block.y[2], block.z[2]) - ray.origin;
-  const TriangleLanes<B> lanes = intersect_triangle(set_up_triangle(a, b, c), ray.dir);
+  const TriangleLanes<B> lanes = intersect_triangle(set_up_triangle(a, b, c), ray.dir,
+                                                    [&] { return reach_of(a, b, c, largest(ray.origin)); });
   const std::uint32_t hit = to_bits(lanes.inside & (lanes.t > B(ray.t_min)) & (lanes.t <= B(ray.t)));
   if (hit != 0) keep_closest(ray, hit, lanes.t, block.primitive);
 }

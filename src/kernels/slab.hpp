@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ray against box. These tests only cull: they may let a box through that the ray misses, never the other way
-// round. A primitive's own test may report a hit a few ulps outside its box, so boxes are met as if larger
-// (box_padding), and distances are compared with slack (depth_slack): a grazing hit's t carries a larger
-// error than its box does.
+// round. A primitive's own test may report a hit a little outside its box (docs/numerics.md, "Triangle": by
+// reach_margin), so boxes are met as if larger than that by box_padding; and distances are compared with a
+// little slack.
 #pragma once
 
 #include "src/kernels/vec3.hpp"
@@ -10,9 +10,9 @@
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // Boxes are met as if larger by this share of the largest coordinate in play.
-inline constexpr float box_padding = 0x1p-21F;
+inline constexpr float box_padding = 0x1p-19F;
 // What lies farther than the closest hit by no more than this share of it is still looked at.
-inline constexpr float depth_slack = 0x1p-12F;
+inline constexpr float depth_slack = 0x1p-18F;
 // 1 + 2 * gamma(3), Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
 inline constexpr float slab_factor = 1.00000036F;
 

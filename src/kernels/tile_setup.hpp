@@ -80,7 +80,7 @@ FASTRT_INLINE void bound_frame(const GeometryView& scene, float least_offset, co
     size = larger(size, larger(magnitude(least_of(groups.y0)), magnitude(most_of(groups.y1))));
     size = larger(size, larger(magnitude(least_offset), magnitude(most_of(groups.depth_offset))));
   }
-  f.padding = 4.0F * box_padding * larger(size, scene.largest_coordinate);
+  f.padding = 2.0F * box_padding * larger(size, scene.largest_coordinate);
   f.near = least_offset - f.padding;
 }
 

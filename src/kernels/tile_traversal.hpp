@@ -89,36 +89,37 @@ FASTRT_INLINE V3<PacketF> load_origin(const RayBatch& rays, int i) {
           PacketF::load_aligned(rays.origin_z + i)};
 }
 
-// Four set-ups as columns, so that one can be spread over a register.
+// Four set-ups and reaches as columns, so that one can be spread over a register.
 struct BlockSetup {
-  alignas(16) float columns[13][block_size];
+  alignas(16) float columns[19][block_size];
 };
 
-FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<Floats<block_size>>& s) {
+FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<BlockF>& s, const TriangleReach<BlockF>& r) {
   BlockSetup out;
   store3(s.edge_a, out.columns[0], out.columns[1], out.columns[2]);
   store3(s.edge_b, out.columns[3], out.columns[4], out.columns[5]);
   store3(s.edge_c, out.columns[6], out.columns[7], out.columns[8]);
   store3(s.normal, out.columns[9], out.columns[10], out.columns[11]);
   s.offset.store_aligned(out.columns[12]);
+  store3(r.low, out.columns[13], out.columns[14], out.columns[15]);
+  store3(r.high, out.columns[16], out.columns[17], out.columns[18]);
   return out;
 }
 
-FASTRT_INLINE TriangleSetup<PacketF> spread_setup(const BlockSetup& s, int i) {
-  const auto v = [&](int c) {
-    return broadcast3<PacketF>(s.columns[c][i], s.columns[c + 1][i], s.columns[c + 2][i]);
-  };
-  return {v(0), v(3), v(6), v(9), PacketF(s.columns[12][i])};
+FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
+  return broadcast3<PacketF>(s.columns[column][i], s.columns[column + 1][i], s.columns[column + 2][i]);
 }
 
 // Triangle i of a block against the groups in `groups`, all rays from one origin.
 template <bool any>
 FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, int i,
                                     std::int32_t primitive, std::uint32_t groups) {
-  const TriangleSetup<PacketF> setup = spread_setup(block, i);
+  const TriangleSetup<PacketF> setup{spread(block, 0, i), spread(block, 3, i), spread(block, 6, i),
+                                     spread(block, 9, i), PacketF(block.columns[12][i])};
+  const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
   for (; groups != 0; groups &= groups - 1)
     meet_group(tile, __builtin_ctz(groups), primitive, [&](int ray) -> MetLanes {
-      const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray));
+      const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray), reach);
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
     });
 }
@@ -130,9 +131,11 @@ FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const TriangleBlock& 
   for (; groups != 0; groups &= groups - 1)
     meet_group(tile, __builtin_ctz(groups), block.primitive[i], [&](int ray) -> MetLanes {
       const V3<PacketF> origin = load_origin(tile.rays, ray);
-      const TriangleSetup<PacketF> setup = set_up_triangle(
-          vertex(block, 0, i) - origin, vertex(block, 1, i) - origin, vertex(block, 2, i) - origin);
-      const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray));
+      const V3<PacketF> a = vertex(block, 0, i) - origin, b = vertex(block, 1, i) - origin,
+                        c = vertex(block, 2, i) - origin;
+      const TriangleLanes<PacketF> lanes =
+          intersect_triangle(set_up_triangle(a, b, c), load_dir(tile.rays, ray),
+                             [&] { return reach_of(a, b, c, largest(origin)); });
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
     });
 }
@@ -192,7 +195,7 @@ FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const TriangleBlock& blo
   }
   const TriangleSetup<B> setup = set_up_triangle(a, b, c);
   if (sieve.many) lines_from_setup(tile.view.frame, setup, lines);
-  const BlockSetup stored = store_setup(setup);
+  const BlockSetup stored = store_setup(setup, reach_of(a, b, c, largest(origin)));
   for (int i = 0; i < block_size; ++i)
     if (touched[i] != 0)
       meet_from_origin(tile, stored, i, block.primitive[i], sieve_edges(tile, lines, i, touched[i]));

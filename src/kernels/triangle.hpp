@@ -30,23 +30,70 @@ FASTRT_INLINE TriangleSetup<F> set_up_triangle(const V3<F>& a, const V3<F>& b, c
   return s;
 }
 
+// The triangle's own box relative to the ray's origin, with a margin for the rounding of the coordinates.
+template <class F>
+struct TriangleReach {
+  V3<F> low, high;
+};
+
+inline constexpr float reach_margin = 0x1p-21F;
+
+// largest_origin: the largest |coordinate| of the ray's origin.
+template <class F>
+FASTRT_INLINE TriangleReach<F> reach_of(const V3<F>& a, const V3<F>& b, const V3<F>& c,
+                                        const F& largest_origin) {
+  const V3<F> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
+  const V3<F> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
+  const F margin = (max(largest(low), largest(high)) + largest_origin) * F(reach_margin);
+  const V3<F> m{margin, margin, margin};
+  return {low - m, high + m};
+}
+
 template <class F>
 struct TriangleLanes {
   MaskOf<F> inside;
   F t; // meaningful where `inside`
 };
 
-// Where the line through the origin along `dir` passes inside the triangle, and at which t. The caller checks
-// the range of t; NaN fails every comparison. The division waits until some lane needs it.
+// t of a ray almost in the triangle's plane is a quotient of rounding errors and may lie anywhere: it is
+// moved back into the reach, and what the ray itself does not reach is a miss. So every hit lies in the box
+// that a tree knows of.
 template <class F>
-FASTRT_INLINE TriangleLanes<F> intersect_triangle(const TriangleSetup<F>& s, const V3<F>& dir) {
+FASTRT_INLINE TriangleLanes<F> move_into_reach(const TriangleLanes<F>& lanes, const TriangleReach<F>& r,
+                                               const V3<F>& dir) {
+  const F zero(0.0F), one(1.0F);
+  const F ix = one / dir.x, iy = one / dir.y, iz = one / dir.z;
+  const MaskOf<F> bx = ix < zero, by = iy < zero, bz = iz < zero;
+  const F near = max(select(bx, r.high.x, r.low.x) * ix,
+                     max(select(by, r.high.y, r.low.y) * iy, max(select(bz, r.high.z, r.low.z) * iz, zero)));
+  const F far = min(
+      select(bx, r.low.x, r.high.x) * ix,
+      min(select(by, r.low.y, r.high.y) * iy, min(select(bz, r.low.z, r.high.z) * iz, F(__builtin_inff()))));
+  F t = select(lanes.t < near, near, lanes.t);
+  t = select(t > far, far, t);
+  return {lanes.inside & (near <= far) & (abs(lanes.t) < F(__builtin_inff())), t};
+}
+
+// Where the line through the origin along `dir` passes inside the triangle, and at which t. The caller checks
+// the range of t; NaN fails every comparison. The division, and the reach that `reach()` gives, wait until
+// some lane needs them.
+template <class F, class Reach>
+FASTRT_INLINE TriangleLanes<F> intersect_triangle(const TriangleSetup<F>& s, const V3<F>& dir,
+                                                  const Reach& reach) {
   const F u = dot(dir, s.edge_a);
   const F v = dot(dir, s.edge_b);
   const F w = dot(dir, s.edge_c);
   const F sum = (u + v) + w;
   const MaskOf<F> inside = min(u, min(v, w)) >= negate(F(0x1p-23F) * abs(sum));
   if (to_bits(inside) == 0) return {inside, F(0.0F)};
-  return {inside, s.offset / dot(dir, s.normal)};
+  const TriangleLanes<F> lanes{inside, s.offset / dot(dir, s.normal)};
+  const TriangleReach<F> r = reach();
+  const V3<F> q = dir * lanes.t;
+  const MaskOf<F> reached = (q.x >= r.low.x) & (q.x <= r.high.x) & (q.y >= r.low.y) & (q.y <= r.high.y) &
+                            (q.z >= r.low.z) & (q.z <= r.high.z);
+  if ((to_bits(inside) & ~to_bits(reached)) == 0) return lanes;
+  const TriangleLanes<F> moved = move_into_reach(lanes, r, dir);
+  return {inside & (reached | moved.inside), select(reached, lanes.t, moved.t)};
 }
 
 // Weights of the second and third vertex at the point where the line meets the plane.
@@ -59,7 +106,8 @@ FASTRT_INLINE Barycentric<F> triangle_weights(const TriangleSetup<F>& s, const V
   const F u = dot(dir, s.edge_a);
   const F v = dot(dir, s.edge_b);
   const F w = dot(dir, s.edge_c);
-  const F inverse = F(1.0F) / ((u + v) + w);
+  const F sum = (u + v) + w;
+  const F inverse = select(sum == F(0.0F), F(0.0F), F(1.0F) / sum);
   return {v * inverse, w * inverse};
 }
 

@@ -38,6 +38,47 @@ struct Intersection {
   float v;
 };
 
+// What the ray must reach of a triangle: its box seen from the origin, a little larger for the rounding.
+struct Reach {
+  Vec3 low, high;
+};
+
+inline Reach reach_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& origin) {
+  Reach reach;
+  for (int axis = 0; axis < 3; ++axis) {
+    reach.low[axis] = min(a[axis], min(b[axis], c[axis]));
+    reach.high[axis] = max(a[axis], max(b[axis], c[axis]));
+  }
+  const float size = max(largest_magnitude(reach.low), largest_magnitude(reach.high));
+  const float margin = (size + largest_magnitude(origin)) * 0x1p-21F;
+  reach.low = reach.low - Vec3(margin);
+  reach.high = reach.high + Vec3(margin);
+  return reach;
+}
+
+inline bool contains(const Reach& reach, const Vec3& q) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(q[axis] >= reach.low[axis] && q[axis] <= reach.high[axis])) return false;
+  return true;
+}
+
+// Where a ray almost in the triangle's plane meets it is a quotient of rounding errors. Moves such a t to the
+// part of the ray that is within reach; false if there is none.
+inline bool move_into_reach(const Reach& reach, const Vec3& d, float& t) {
+  if (!(std::fabs(t) < infinity)) return false;
+  float near = 0.0F;
+  float far = infinity;
+  for (int axis = 2; axis >= 0; --axis) {
+    const float inverse = 1.0F / d[axis];
+    const bool backwards = inverse < 0.0F;
+    near = max((backwards ? reach.high[axis] : reach.low[axis]) * inverse, near);
+    far = min((backwards ? reach.low[axis] : reach.high[axis]) * inverse, far);
+  }
+  if (t < near) t = near;
+  if (t > far) t = far;
+  return near <= far;
+}
+
 // Lecture notes, 11.3.1, in the form with edge normals seen from the origin: an edge that two triangles share
 // gives exactly opposite numbers for them, so no ray slips through between.
 inline Intersection intersect_triangle(const Ray& ray, const TriangleVertices& triangle) {
@@ -63,9 +104,12 @@ inline Intersection intersect_triangle(const Ray& ray, const TriangleVertices& t
 
   const float sum = (weight_a + weight_b) + weight_c;
   const bool inside = min(weight_a, min(weight_b, weight_c)) >= -(0x1p-23F * std::fabs(sum));
-  const float t = plane / slope;
-  const float scale = 1.0F / sum;
-  return {inside && ray.t_min < t && t < ray.t_max, t, weight_b * scale, weight_c * scale};
+  if (!inside) return {false, ray.t_max, 0, 0};
+  float t = plane / slope;
+  const Reach reach = reach_of(a, b, c, ray.origin);
+  const bool reached = contains(reach, t * d) || move_into_reach(reach, d, t);
+  const float scale = sum == 0.0F ? 0.0F : 1.0F / sum;
+  return {reached && ray.t_min < t && t < ray.t_max, t, weight_b * scale, weight_c * scale};
 }
 
 // Lecture notes, 11.3.3, in the stable form of Haines, Guenther & Akenine-Moeller (Ray Tracing Gems, ch. 7,

@@ -27,7 +27,7 @@ class SlabRay {
 public:
   SlabRay(const Ray& ray, float largest_coordinate) : t_min_(ray.t_min) {
     const float margin =
-        0x1p-21F * reference::max(reference::largest_magnitude(ray.origin), largest_coordinate);
+        0x1p-19F * reference::max(reference::largest_magnitude(ray.origin), largest_coordinate);
     for (int axis = 0; axis < 3; ++axis) {
       Axis& slab = axes_[static_cast<std::size_t>(axis)];
       // By the sign bit: -0 has the inverse -infinity.
