@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bench/allocations.hpp"
 #include "bench/compare_options.hpp"
 #include "bench/embree_scene.hpp"
 #include "bench/generated.hpp"
@@ -50,7 +51,11 @@ BuildResult measure_build(const Model& model, int threads, const CompareOptions&
   for (int round = 0; round < std::min(options.rounds, 5); ++round) {
     TracerSettings settings;
     settings.threads = threads;
-    const Tracer tracer(Scene(model.desc), settings);
+    Scene scene(model.desc);
+    reset_peak();
+    const std::size_t held = bytes_allocated();
+    const Tracer tracer(std::move(scene), settings);
+    result.fastrt_peak_bytes = peak_allocated() - held;
     result.primitives = tracer.scene().primitive_count();
     result.fastrt_bytes = tracer.bvh_stats().bytes;
     fastrt_seconds.push_back(tracer.bvh_stats().build_seconds);

@@ -130,7 +130,7 @@ CompareOptions parse_compare_options(int count, char** arguments) {
 std::string compare_usage() {
   return "usage: fastrt_compare [options] MODEL...\n"
          "Times fastrt's kernels and Embree 3 on the same rays, in turn, in one process.\n"
-         "MODEL: an OBJ file or a generated scene (balls, terrain).\n"
+         "MODEL: an OBJ file or a generated scene (balls, terrain, tree).\n"
          "  --isa LIST      scalar,sse4.2,avx2,avx512 (all that run here)\n"
          "  --threads LIST  1,2\n"
          "  --rays LIST     primary, point shadow, directional shadow, mirror, refracted, random;\n"

@@ -16,7 +16,11 @@ SceneDesc balls_scene(int levels = 4);
 // A height field of 2 * cells * cells triangles.
 SceneDesc terrain_scene(int cells = 256);
 
-// "balls", "terrain". Throws UsageError for other names.
+// A tree of tapered prisms with balls at their ends on a wide floor: triangles and spheres, 2^(levels + 1) -
+// 1 branches.
+SceneDesc tree_scene(int levels = 11);
+
+// "balls", "terrain", "tree". Throws UsageError for other names.
 SceneDesc generated_scene(const std::string& name);
 std::vector<std::string> generated_scene_names();
 

@@ -69,6 +69,7 @@ void write_povray(const Picture& picture, const std::filesystem::path& path) {
   file.finish();
 }
 
+// tachyon's camera is left-handed: the picture comes out mirrored, which costs it nothing.
 void write_tachyon(const Picture& picture, const std::filesystem::path& path) {
   TextFile file(path);
   const Camera& camera = picture.camera;

@@ -68,8 +68,9 @@ std::string json(const BuildResult& r) {
   out << "{\"model\": " << quoted(r.model) << ", \"threads\": " << r.threads
       << ", \"primitives\": " << r.primitives << ", \"fastrt_seconds\": " << json(r.fastrt_seconds)
       << ", \"embree_seconds\": " << json(r.embree_seconds) << ", \"ratio\": " << json(r.ratio)
-      << ", \"fastrt_bytes\": " << r.fastrt_bytes << ", \"embree_bytes\": " << r.embree_bytes
-      << ", \"embree_peak_bytes\": " << r.embree_peak_bytes << '}';
+      << ", \"fastrt_bytes\": " << r.fastrt_bytes << ", \"fastrt_peak_bytes\": " << r.fastrt_peak_bytes
+      << ", \"embree_bytes\": " << r.embree_bytes << ", \"embree_peak_bytes\": " << r.embree_peak_bytes
+      << '}';
   return out.str();
 }
 
@@ -83,15 +84,17 @@ std::string ratio_text(const Spread& ratio) {
 } // namespace
 
 void print_build_heading() {
-  std::printf("%-20s %7s %11s | %9s %9s | %9s %9s %9s | %s\n", "build", "threads", "primitives", "fastrt s",
-              "MB", "embree s", "MB", "peak MB", "embree s / fastrt s");
+  std::printf("%-20s %7s %10s | %8s %7s %7s | %8s %7s %7s | %s\n", "build", "threads", "primitives",
+              "fastrt s", "MB", "peak MB", "embree s", "MB", "peak MB", "embree s / fastrt s");
 }
 
 void print(const BuildResult& r) {
   const auto megabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / mega; };
-  std::printf("%-20s %7d %11zu | %9.3f %9.1f | %9.3f %9.1f %9.1f | %s\n", r.model.c_str(), r.threads,
-              r.primitives, r.fastrt_seconds.median, megabytes(r.fastrt_bytes), r.embree_seconds.median,
-              megabytes(r.embree_bytes), megabytes(r.embree_peak_bytes), ratio_text(r.ratio).c_str());
+  std::printf("%-20s %7d %10zu | %8.3f %7.1f %7.1f | %8.3f %7.1f %7.1f | %s\n", r.model.c_str(), r.threads,
+              r.primitives, r.fastrt_seconds.median, megabytes(r.fastrt_bytes),
+              megabytes(r.fastrt_peak_bytes), r.embree_seconds.median, megabytes(r.embree_bytes),
+              megabytes(r.embree_peak_bytes), ratio_text(r.ratio).c_str());
+  std::fflush(stdout);
 }
 
 void print(const TraversalResult& r) {

@@ -36,7 +36,9 @@ struct BuildResult {
   int threads = 1;
   std::size_t primitives = 0;
   Spread fastrt_seconds, embree_seconds, ratio; // ratio: Embree's time over fastrt's
-  std::size_t fastrt_bytes = 0, embree_bytes = 0, embree_peak_bytes = 0;
+  std::size_t fastrt_bytes = 0,
+              fastrt_peak_bytes = 0; // of the tree, primitives included; at most during the build
+  std::size_t embree_bytes = 0, embree_peak_bytes = 0;
 };
 
 struct Report {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts what operator new hands out. A program that links allocations.cpp has its operator new replaced.
+#pragma once
+
+#include <cstddef>
+
+namespace fastrt::bench {
+
+std::size_t bytes_allocated() noexcept; // held now
+std::size_t peak_allocated() noexcept;  // held at most since the last reset
+void reset_peak() noexcept;
+
+} // namespace fastrt::bench
