@@ -42,6 +42,8 @@ private:
   bool winds_once() const;
   void fan(std::vector<Triangle>& triangles) const;
   bool cut_ears(std::vector<Triangle>& triangles);
+  void cut_candidates(std::vector<Triangle>& triangles);
+  void cut_straight(std::vector<Triangle>& triangles);
   void make_ring();
   bool is_ear(std::uint32_t corner) const;
   bool blocks(std::uint32_t other, const Link& ends, std::uint32_t corner) const;
@@ -51,6 +53,8 @@ private:
   std::vector<Link> ring_;
   std::vector<std::uint32_t> by_x_; // corners that may lie in an ear, by ascending x
   std::vector<char> gone_;
+  std::size_t left_ = 0; // corners in the ring
+  std::vector<std::uint32_t> candidates_;
 };
 
 } // namespace fastrt

@@ -15,6 +15,7 @@ PolygonTriangulator::Turn PolygonTriangulator::turn_at(std::uint32_t corner) con
 void PolygonTriangulator::make_ring() {
   const auto count = static_cast<std::uint32_t>(points_.size());
   ring_.resize(count);
+  left_ = count;
   for (std::uint32_t i = 0; i < count; ++i)
     ring_[i] = {i == 0 ? count - 1 : i - 1, i + 1 == count ? 0 : i + 1};
   gone_.assign(count, 0);
@@ -55,33 +56,41 @@ void PolygonTriangulator::cut(std::uint32_t corner, std::vector<Triangle>& trian
   ring_[link.before].after = link.after;
   ring_[link.after].before = link.before;
   gone_[corner] = 1;
+  --left_;
+}
+
+// Cuts the ears among the candidates; only the neighbours of one that was cut can become ears by that.
+void PolygonTriangulator::cut_candidates(std::vector<Triangle>& triangles) {
+  for (std::size_t next = 0; next != candidates_.size() && left_ > 3; ++next) {
+    const std::uint32_t corner = candidates_[next];
+    if (gone_[corner] != 0 || !is_ear(corner)) continue;
+    candidates_.push_back(ring_[corner].before);
+    candidates_.push_back(ring_[corner].after);
+    cut(corner, triangles);
+  }
+}
+
+// Cuts corners that turn nowhere: the triangles have no area, but may free ears.
+void PolygonTriangulator::cut_straight(std::vector<Triangle>& triangles) {
+  for (std::uint32_t corner = 0; corner != ring_.size() && left_ > 3; ++corner)
+    if (gone_[corner] == 0 && turn_at(corner) == Turn::straight) cut(corner, triangles);
 }
 
 // False if there is no ear left before the end: the polygon touches or crosses itself.
 bool PolygonTriangulator::cut_ears(std::vector<Triangle>& triangles) {
   make_ring();
-  std::size_t left = points_.size();
-  std::size_t since_last_cut = 0;
-  bool accept_straight = false;
-  std::uint32_t corner = 0;
-  while (left > 3) {
-    const std::uint32_t next = ring_[corner].after;
+  while (left_ > 3) {
+    const std::size_t left_before = left_;
+    candidates_.clear();
+    for (std::uint32_t corner = 0; corner != ring_.size(); ++corner)
+      if (gone_[corner] == 0) candidates_.push_back(corner);
+    cut_candidates(triangles);
     // Corners on a straight line go last: cutting one early would leave it on the edge of a triangle, not at
     // a corner, and so a gap.
-    if (is_ear(corner) || (accept_straight && turn_at(corner) == Turn::straight)) {
-      cut(corner, triangles);
-      --left;
-      since_last_cut = 0;
-      accept_straight = false;
-      corner = ring_[next].after; // skipping one avoids slivers around one corner
-      continue;
-    }
-    corner = next;
-    if (++since_last_cut <= left) continue;
-    if (accept_straight) return false;
-    accept_straight = true;
-    since_last_cut = 0;
+    if (left_ == left_before) cut_straight(triangles);
+    if (left_ == left_before) return false;
   }
+  const auto corner = static_cast<std::uint32_t>(std::find(gone_.begin(), gone_.end(), 0) - gone_.begin());
   triangles.push_back({ring_[corner].before, corner, ring_[corner].after});
   return turn_at(corner) != Turn::right;
 }
