@@ -98,11 +98,11 @@ void print(const BuildResult& r) {
 }
 
 void print(const TraversalResult& r) {
-  const double hit_share = r.with_embree.rays == 0 ? 0.0
-                                                   : 100.0 * static_cast<double>(r.with_embree.hits) /
-                                                         static_cast<double>(r.with_embree.rays);
-  std::printf("\n%s, %s rays, %d thread%s: %zu rays, %.1f %% hit\n", r.model.c_str(), r.rays.c_str(),
-              r.threads, r.threads == 1 ? "" : "s", r.ray_count, hit_share);
+  std::printf("\n%s, %s rays, %d thread%s: %zu rays", r.model.c_str(), r.rays.c_str(), r.threads,
+              r.threads == 1 ? "" : "s", r.ray_count);
+  if (const Disagreement& d = r.with_embree; d.rays != 0)
+    std::printf(", %.1f %% hit", 100.0 * static_cast<double>(d.hits) / static_cast<double>(d.rays));
+  std::printf("\n");
   std::printf("  %-22s %9s   %-19s %-19s %s\n", "", "Mrays/s", "/ Embree", "/ Embree robust", "/ scalar");
   for (const FastrtRow& row : r.fastrt)
     std::printf("  %-22s %9.2f   %-19s %-19s %s\n", ("fastrt " + row.isa).c_str(), row.mrays.median,
