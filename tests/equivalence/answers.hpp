@@ -20,51 +20,10 @@ namespace fastrt::test {
 
 using reference::Hit;
 
-// What must be answered. Of a ray that sees a triangle from its very edge t is a quotient of rounding errors
-// and may lie anywhere on the ray; no tree can promise to find such hits, so they are `open`.
-struct Answer {
-  Hit hit;
-  bool open = false;
-};
-
-// Whether the hit lies in its triangle's box, give or take the rounding of coordinates.
-inline bool lies_in_box(const Scene& scene, const Ray& ray, const Hit& hit) {
-  if (!hit.found() || static_cast<std::uint32_t>(hit.primitive) >= scene.triangle_count()) return true;
-  const auto [a, b, c] = reference::triangle_vertices(scene, static_cast<std::uint32_t>(hit.primitive));
-  float largest = reference::largest_magnitude(ray.origin);
-  for (const Vec3& vertex : {a, b, c})
-    largest = reference::max(largest, reference::largest_magnitude(vertex));
-  const double margin = 0x1p-22 * static_cast<double>(largest);
-  const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(hit.t) * glm::dvec3(ray.direction);
-  const glm::dvec3 lower = glm::dvec3(glm::min(a, glm::min(b, c))) - margin;
-  const glm::dvec3 upper = glm::dvec3(glm::max(a, glm::max(b, c))) + margin;
-  return glm::all(glm::lessThanEqual(lower, point)) && glm::all(glm::lessThanEqual(point, upper));
-}
-
-inline Answer answer_of(const Scene& scene, const Ray& ray) {
-  const Hit hit = reference::BruteForce(scene).closest(ray);
-  return {hit, !lies_in_box(scene, ray, hit)};
-}
-
-// Whether a hit is one that its primitive reports, though it need not be the closest.
-inline bool is_reported(const Scene& scene, const Ray& ray, const Hit& hit) {
-  if (!hit.found()) return same(hit, Hit{ray.t_max, 0, 0, no_primitive});
-  const reference::Intersection found =
-      reference::intersect(ray, scene, static_cast<std::uint32_t>(hit.primitive));
-  return found.hit && hit.primitive != ray.excluded &&
-         same(hit, Hit{found.t, found.u, found.v, hit.primitive});
-}
-
-// Whether a query's answers for a ray are right.
-inline bool agrees(const Scene& scene, const Ray& ray, const Answer& expected, const Hit& closest, bool any) {
-  if (expected.open) return is_reported(scene, ray, closest);
-  return same(closest, expected.hit) && any == expected.hit.found();
-}
-
-inline std::vector<Answer> answers_of(const Scene& scene, std::span<const Ray> rays) {
-  std::vector<Answer> answers;
+inline std::vector<Hit> answers_of(const reference::HitFinder& finder, std::span<const Ray> rays) {
+  std::vector<Hit> answers;
   answers.reserve(rays.size());
-  for (const Ray& ray : rays) answers.push_back(answer_of(scene, ray));
+  for (const Ray& ray : rays) answers.push_back(finder.closest(ray));
   return answers;
 }
 
