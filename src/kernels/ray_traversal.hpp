@@ -3,11 +3,10 @@
 // share nothing with their neighbours.
 #pragma once
 
+#include "src/kernels/leaf_lanes.hpp"
 #include "src/kernels/slab.hpp"
 #include "src/kernels/sphere.hpp"
-#include "src/kernels/triangle.hpp"
 #include "src/trace/ray_batch.hpp"
-#include "src/trace/scene_view.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -21,7 +20,7 @@ struct StackEntry {
 
 // A ray that is on its way, with the closest hit so far.
 struct LoneRay {
-  V3<Floats<block_size>> origin, dir; // broadcast over a block
+  V3<LeafF> origin, dir; // broadcast over the blocks of a leaf
   SlabAxis<Floats<node_lanes>> x, y, z;
   int near_x, near_y, near_z; // 8 where the ray meets the upper plane first: offset into the node's columns
   float t_min;
@@ -39,11 +38,10 @@ FASTRT_INLINE bool is_traceable(float ox, float oy, float oz, float dx, float dy
 
 FASTRT_INLINE LoneRay make_lone_ray(const GeometryView& scene, const RayBatch& rays, int i, float t,
                                     std::int32_t primitive) {
-  using B = Floats<block_size>;
   using N = Floats<node_lanes>;
   LoneRay ray;
-  ray.origin = broadcast3<B>(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
-  ray.dir = broadcast3<B>(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
+  ray.origin = broadcast3<LeafF>(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
+  ray.dir = broadcast3<LeafF>(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
   const V3<N> origin = broadcast3<N>(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
   const V3<N> dir = broadcast3<N>(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
   const N padding = padding_of(origin, N(scene.largest_coordinate));
@@ -62,13 +60,13 @@ FASTRT_INLINE LoneRay make_lone_ray(const GeometryView& scene, const RayBatch& r
 
 // Keeps the best of the lanes in `hit` (bits) if it beats what the ray has. Smallest t first, then smallest
 // id.
-FASTRT_INLINE void keep_closest(LoneRay& ray, std::uint32_t hit, const Floats<block_size>& t,
-                                const std::int32_t* primitives) {
-  alignas(16) float lanes[block_size];
+template <class Block>
+FASTRT_INLINE void keep_closest(LoneRay& ray, std::uint32_t hit, const LeafF& t, const BlockRun<Block>& run) {
+  alignas(32) float lanes[leaf_lanes];
   t.store_aligned(lanes);
   for (; hit != 0; hit &= hit - 1) {
     const int lane = __builtin_ctz(hit);
-    const std::int32_t id = primitives[lane];
+    const std::int32_t id = run.primitive(lane);
     if (id == ray.exclude) continue;
     if (lanes[lane] < ray.t || (lanes[lane] == ray.t && id < ray.primitive)) {
       ray.t = lanes[lane];
@@ -77,32 +75,29 @@ FASTRT_INLINE void keep_closest(LoneRay& ray, std::uint32_t hit, const Floats<bl
   }
 }
 
-FASTRT_INLINE void meet_triangles(LoneRay& ray, const TriangleBlock& block) {
-  using B = Floats<block_size>;
-  const V3<B> a = load3<B>(block.x[0], block.y[0], block.z[0]) - ray.origin;
-  const V3<B> b = load3<B>(block.x[1], block.y[1], block.z[1]) - ray.origin;
-  const V3<B> c = load3<B>(block.x[2], block.y[2], block.z[2]) - ray.origin;
-  const TriangleLanes<B> lanes = intersect_triangle(set_up_triangle(a, b, c), ray.dir,
-                                                    [&] { return reach_of(a, b, c, largest(ray.origin)); });
-  const std::uint32_t hit = to_bits(lanes.inside & (lanes.t > B(ray.t_min)) & (lanes.t <= B(ray.t)));
-  if (hit != 0) keep_closest(ray, hit, lanes.t, block.primitive);
+FASTRT_INLINE void meet_run(LoneRay& ray, const BlockRun<TriangleBlock>& run) {
+  const V3<LeafF> a = load_vertices(run, 0) - ray.origin, b = load_vertices(run, 1) - ray.origin,
+                  c = load_vertices(run, 2) - ray.origin;
+  const TriangleLanes<LeafF> lanes = intersect_triangle(
+      set_up_triangle(a, b, c), ray.dir, [&] { return reach_of(a, b, c, largest(ray.origin)); });
+  const std::uint32_t hit = to_bits(lanes.inside & (lanes.t > LeafF(ray.t_min)) & (lanes.t <= LeafF(ray.t)));
+  if (hit != 0) keep_closest(ray, hit, lanes.t, run);
 }
 
-FASTRT_INLINE void meet_spheres(LoneRay& ray, const SphereBlock& block) {
-  using B = Floats<block_size>;
-  const SphereLanes<B> lanes = intersect_sphere(load3<B>(block.x, block.y, block.z), load<B>(block.radius),
-                                                ray.origin, ray.dir, B(ray.t_min));
-  const std::uint32_t hit = to_bits(lanes.hit & (lanes.t <= B(ray.t)));
-  if (hit != 0) keep_closest(ray, hit, lanes.t, block.primitive);
+FASTRT_INLINE void meet_run(LoneRay& ray, const BlockRun<SphereBlock>& run) {
+  const SphereLanes<LeafF> lanes =
+      intersect_sphere(load_centers(run), load_two<LeafF>(run.low->radius, run.high->radius), ray.origin,
+                       ray.dir, LeafF(ray.t_min));
+  const std::uint32_t hit = to_bits(lanes.hit & (lanes.t <= LeafF(ray.t)));
+  if (hit != 0) keep_closest(ray, hit, lanes.t, run);
 }
 
 FASTRT_INLINE void meet_leaf(const GeometryView& scene, LoneRay& ray, std::uint32_t leaf) {
-  const std::uint32_t first = leaf_first_block(leaf);
-  const std::uint32_t end = first + leaf_blocks(leaf);
+  const auto meet = [&](const auto& run) { meet_run(ray, run); };
   if (leaf_group(leaf) == triangle_group)
-    for (std::uint32_t b = first; b != end; ++b) meet_triangles(ray, scene.triangles[b]);
+    for_each_run(scene.triangles, leaf, meet);
   else
-    for (std::uint32_t b = first; b != end; ++b) meet_spheres(ray, scene.spheres[b]);
+    for_each_run(scene.spheres, leaf, meet);
 }
 
 struct NodeHits {

@@ -162,23 +162,21 @@ FASTRT_INLINE std::uint32_t far_groups(const TileGroups& groups, float near) {
   return bits;
 }
 
-// A block's triangles in the plane: their rectangles, and for parallel rays their corners.
+// The triangles of a run of blocks in the plane: their rectangles, and for parallel rays their corners.
 struct ProjectedTriangles {
-  Rectangles<Floats<block_size>> bounds;
-  Floats<block_size> ax, ay, bx, by, cx, cy;
+  Rectangles<LeafF> bounds;
+  LeafF ax, ay, bx, by, cx, cy;
 };
 
 // Vertices relative to the origin.
-FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V3<Floats<block_size>>& a,
-                                                   const V3<Floats<block_size>>& b,
-                                                   const V3<Floats<block_size>>& c) {
-  using B = Floats<block_size>;
-  const V3<B> u = broadcast3<B>(view.frame.u), v = broadcast3<B>(view.frame.v),
-              w = broadcast3<B>(view.frame.w);
-  const B aw = dot(a, w), bw = dot(b, w), cw = dot(c, w);
-  const B padding(view.frame.padding);
-  const B near = min(aw, min(bw, cw)) - padding;
-  B ax = dot(a, u), bx = dot(b, u), cx = dot(c, u), ay = dot(a, v), by = dot(b, v), cy = dot(c, v);
+FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V3<LeafF>& a,
+                                                   const V3<LeafF>& b, const V3<LeafF>& c) {
+  const V3<LeafF> u = broadcast3<LeafF>(view.frame.u), v = broadcast3<LeafF>(view.frame.v),
+                  w = broadcast3<LeafF>(view.frame.w);
+  const LeafF aw = dot(a, w), bw = dot(b, w), cw = dot(c, w);
+  const LeafF padding(view.frame.padding);
+  const LeafF near = min(aw, min(bw, cw)) - padding;
+  LeafF ax = dot(a, u), bx = dot(b, u), cx = dot(c, u), ay = dot(a, v), by = dot(b, v), cy = dot(c, v);
   if (!view.frame.perspective)
     return {{min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
              max(ay, max(by, cy)) + padding, near},
@@ -188,25 +186,25 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
             by,
             cx,
             cy};
-  const B one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin), zero(0.0F);
-  const MaskOf<B> around = near <= zero;
-  MaskOf<B> within = zero <= zero;
+  const LeafF one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin), zero(0.0F);
+  const MaskOf<LeafF> around = near <= zero;
+  MaskOf<LeafF> within = zero <= zero;
   if (to_bits(around) != 0) {
-    const auto meets = [&](const B& p, const B& q, const B& r) {
-      return max(p, max(q, r)) >= negate(B(4.0F) * padding);
+    const auto meets = [&](const LeafF& p, const LeafF& q, const LeafF& r) {
+      return max(p, max(q, r)) >= negate(LeafF(4.0F) * padding);
     };
-    const B vx0(view.x0), vx1(view.x1), vy0(view.y0), vy1(view.y1);
+    const LeafF vx0(view.x0), vx1(view.x1), vy0(view.y0), vy1(view.y1);
     within = meets(ax - vx0 * aw, bx - vx0 * bw, cx - vx0 * cw) &
              meets(vx1 * aw - ax, vx1 * bw - bx, vx1 * cw - cx) &
              meets(ay - vy0 * aw, by - vy0 * bw, cy - vy0 * cw) &
              meets(vy1 * aw - ay, vy1 * bw - by, vy1 * cw - cy);
   }
-  const B ai = one / aw, bi = one / bw, ci = one / cw;
+  const LeafF ai = one / aw, bi = one / bw, ci = one / cw;
   ax = ax * ai, bx = bx * bi, cx = cx * ci, ay = ay * ai, by = by * bi, cy = cy * ci;
-  const B x0 = min(ax, min(bx, cx)), x1 = max(ax, max(bx, cx)), y0 = min(ay, min(by, cy)),
-          y1 = max(ay, max(by, cy));
-  const B mx = ((abs(x0) + abs(x1)) + one) * margin, my = ((abs(y0) + abs(y1)) + one) * margin;
-  const B outside = select(within, negate(everywhere), everywhere);
+  const LeafF x0 = min(ax, min(bx, cx)), x1 = max(ax, max(bx, cx)), y0 = min(ay, min(by, cy)),
+              y1 = max(ay, max(by, cy));
+  const LeafF mx = ((abs(x0) + abs(x1)) + one) * margin, my = ((abs(y0) + abs(y1)) + one) * margin;
+  const LeafF outside = select(within, negate(everywhere), everywhere);
   return {{select(around, outside, x0 - mx), select(around, everywhere, x1 + mx),
            select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near},
           ax,

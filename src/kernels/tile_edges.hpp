@@ -8,14 +8,12 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// The edges of four triangles as lines a*x + b*y + c >= -margin of the plane, positive inside.
+// The edges of a run's triangles as lines a*x + b*y + c >= -margin of the plane, positive inside.
 struct EdgeLines {
-  alignas(16) float a[3][block_size], b[3][block_size], c[3][block_size], margin[block_size];
+  alignas(32) float a[3][leaf_lanes], b[3][leaf_lanes], c[3][leaf_lanes], margin[leaf_lanes];
 };
 
-using BlockF = Floats<block_size>;
-
-FASTRT_INLINE BlockF store_line(EdgeLines& lines, int e, const BlockF& a, const BlockF& b, const BlockF& c) {
+FASTRT_INLINE LeafF store_line(EdgeLines& lines, int e, const LeafF& a, const LeafF& b, const LeafF& c) {
   a.store_aligned(lines.a[e]);
   b.store_aligned(lines.b[e]);
   c.store_aligned(lines.c[e]);
@@ -24,28 +22,28 @@ FASTRT_INLINE BlockF store_line(EdgeLines& lines, int e, const BlockF& a, const 
 
 // Rays of one origin: an edge's plane through the origin is a line of the plane. The margin covers the
 // rounding of the normals, and the tolerance of the test itself.
-FASTRT_INLINE void lines_from_setup(const TileFrame& f, const TriangleSetup<BlockF>& s, EdgeLines& lines) {
-  const V3<BlockF> u = broadcast3<BlockF>(f.u), v = broadcast3<BlockF>(f.v), w = broadcast3<BlockF>(f.w);
-  const V3<BlockF>* const edges[3] = {&s.edge_a, &s.edge_b, &s.edge_c};
-  BlockF size(0.0F);
+FASTRT_INLINE void lines_from_setup(const TileFrame& f, const TriangleSetup<LeafF>& s, EdgeLines& lines) {
+  const V3<LeafF> u = broadcast3<LeafF>(f.u), v = broadcast3<LeafF>(f.v), w = broadcast3<LeafF>(f.w);
+  const V3<LeafF>* const edges[3] = {&s.edge_a, &s.edge_b, &s.edge_c};
+  LeafF size(0.0F);
   for (int e = 0; e < 3; ++e) {
-    const BlockF c = dot(*edges[e], w);
+    const LeafF c = dot(*edges[e], w);
     size = size + (store_line(lines, e, dot(*edges[e], u), dot(*edges[e], v), c) + abs(c));
   }
-  (size * BlockF(0x1p-18F)).store_aligned(lines.margin);
+  (size * LeafF(0x1p-18F)).store_aligned(lines.margin);
 }
 
 // Parallel rays: the edges between the projected corners.
 FASTRT_INLINE void lines_from_corners(const TileFrame& f, const ProjectedTriangles& t, EdgeLines& lines) {
-  const BlockF x[4] = {t.ax, t.bx, t.cx, t.ax}, y[4] = {t.ay, t.by, t.cy, t.ay};
-  const BlockF area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
-  const BlockF sign = sign_bit(area);
-  BlockF size(0.0F);
+  const LeafF x[4] = {t.ax, t.bx, t.cx, t.ax}, y[4] = {t.ay, t.by, t.cy, t.ay};
+  const LeafF area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
+  const LeafF sign = sign_bit(area);
+  LeafF size(0.0F);
   for (int e = 0; e < 3; ++e) {
-    const BlockF a = flip(y[e] - y[e + 1], sign), b = flip(x[e + 1] - x[e], sign);
+    const LeafF a = flip(y[e] - y[e + 1], sign), b = flip(x[e + 1] - x[e], sign);
     size = size + store_line(lines, e, a, b, negate(a * x[e] + b * y[e]));
   }
-  (size * BlockF(2.0F * f.padding)).store_aligned(lines.margin);
+  (size * LeafF(2.0F * f.padding)).store_aligned(lines.margin);
 }
 
 // Of the groups in `groups`, those whose rectangle reaches inside all three edges of triangle i.

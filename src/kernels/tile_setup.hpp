@@ -41,8 +41,8 @@ FASTRT_INLINE V3<float> middle_direction(const RayBatch& rays, const LiveRays& l
   V3<float> sum{0.0F, 0.0F, 0.0F};
   for (int g = 0; g < batch_groups; ++g) {
     if (live.bits[g] == 0) continue;
-    const V3<float> a = unit(ray_dir(rays, g * group_size + __builtin_ctz(live.bits[g])));
-    const V3<float> b = unit(ray_dir(rays, g * group_size + 31 - __builtin_clz(live.bits[g])));
+    const V3<float> a = ray_dir(rays, g * group_size + __builtin_ctz(live.bits[g]));
+    const V3<float> b = ray_dir(rays, g * group_size + 31 - __builtin_clz(live.bits[g]));
     sum = {sum.x + (a.x + b.x), sum.y + (a.y + b.y), sum.z + (a.z + b.z)};
   }
   return unit(sum);

@@ -18,6 +18,9 @@ struct TileEntry {
 // All that a traversal carries.
 template <bool any>
 struct TileTraversal {
+  TileTraversal(const GeometryView& s, const RayBatch& r, HitBatch& h, const LiveRays& l)
+      : scene(s), rays(r), hits(h), live(l) {}
+
   const GeometryView& scene;
   const RayBatch& rays;
   HitBatch& hits;
@@ -89,12 +92,12 @@ FASTRT_INLINE V3<PacketF> load_origin(const RayBatch& rays, int i) {
           PacketF::load_aligned(rays.origin_z + i)};
 }
 
-// Four set-ups and reaches as columns, so that one can be spread over a register.
+// Set-ups and reaches of a run as columns, so that one can be spread over a register.
 struct BlockSetup {
-  alignas(16) float columns[19][block_size];
+  alignas(32) float columns[19][leaf_lanes];
 };
 
-FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<BlockF>& s, const TriangleReach<BlockF>& r) {
+FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<LeafF>& s, const TriangleReach<LeafF>& r) {
   BlockSetup out;
   store3(s.edge_a, out.columns[0], out.columns[1], out.columns[2]);
   store3(s.edge_b, out.columns[3], out.columns[4], out.columns[5]);
@@ -110,7 +113,7 @@ FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
   return broadcast3<PacketF>(s.columns[column][i], s.columns[column + 1][i], s.columns[column + 2][i]);
 }
 
-// Triangle i of a block against the groups in `groups`, all rays from one origin.
+// Triangle i of a run against the groups in `groups`, all rays from one origin.
 template <bool any>
 FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, int i,
                                     std::int32_t primitive, std::uint32_t groups) {
@@ -126,13 +129,14 @@ FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& 
 
 // The same for parallel rays, each with its own origin.
 template <bool any>
-FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const TriangleBlock& block, int i,
+FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run, int i,
                                  std::uint32_t groups) {
+  const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, i), v1 = spread_vertex<PacketF>(run, 1, i),
+                    v2 = spread_vertex<PacketF>(run, 2, i);
   for (; groups != 0; groups &= groups - 1)
-    meet_group(tile, __builtin_ctz(groups), block.primitive[i], [&](int ray) -> MetLanes {
+    meet_group(tile, __builtin_ctz(groups), run.primitive(i), [&](int ray) -> MetLanes {
       const V3<PacketF> origin = load_origin(tile.rays, ray);
-      const V3<PacketF> a = vertex(block, 0, i) - origin, b = vertex(block, 1, i) - origin,
-                        c = vertex(block, 2, i) - origin;
+      const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
       const TriangleLanes<PacketF> lanes =
           intersect_triangle(set_up_triangle(a, b, c), load_dir(tile.rays, ray),
                              [&] { return reach_of(a, b, c, largest(origin)); });
@@ -145,19 +149,19 @@ struct Sieve {
   bool many; // some triangle touches more than many_groups
 };
 
-// The groups that each of the four triangles touches by its rectangle, and if these are few, with a ray in
+// The groups that each of the run's triangles touches by its rectangle, and if these are few, with a ray in
 // it.
 template <bool any>
-FASTRT_INLINE Sieve sieve_rectangles(const TileTraversal<any>& tile, const Rectangles<BlockF>& r,
+FASTRT_INLINE Sieve sieve_rectangles(const TileTraversal<any>& tile, const Rectangles<LeafF>& r, int lanes,
                                      std::uint32_t groups, std::uint32_t* touched) {
-  alignas(16) float x0[block_size], x1[block_size], y0[block_size], y1[block_size], near[block_size];
+  alignas(32) float x0[leaf_lanes], x1[leaf_lanes], y0[leaf_lanes], y1[leaf_lanes], near[leaf_lanes];
   r.x0.store_aligned(x0);
   r.x1.store_aligned(x1);
   r.y0.store_aligned(y0);
   r.y1.store_aligned(y1);
   r.near.store_aligned(near);
   Sieve sieve{false, false};
-  for (int i = 0; i < block_size; ++i) {
+  for (int i = 0; i < lanes; ++i) {
     touched[i] = touched_groups(tile.view.groups, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
     if (__builtin_popcount(touched[i]) > many_groups)
       sieve.many = true;
@@ -176,37 +180,52 @@ FASTRT_INLINE std::uint32_t sieve_edges(const TileTraversal<any>& tile, const Ed
 }
 
 template <bool any>
-FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const TriangleBlock& block, std::uint32_t groups) {
-  using B = Floats<block_size>;
-  const V3<B> origin = broadcast3<B>(tile.view.frame.origin);
-  const V3<B> a = load3<B>(block.x[0], block.y[0], block.z[0]) - origin;
-  const V3<B> b = load3<B>(block.x[1], block.y[1], block.z[1]) - origin;
-  const V3<B> c = load3<B>(block.x[2], block.y[2], block.z[2]) - origin;
+FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run,
+                            std::uint32_t groups) {
+  const V3<LeafF> origin = broadcast3<LeafF>(tile.view.frame.origin);
+  const V3<LeafF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
+                  c = load_vertices(run, 2) - origin;
   const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
-  std::uint32_t touched[block_size];
-  const Sieve sieve = sieve_rectangles(tile, projected.bounds, groups, touched);
+  std::uint32_t touched[leaf_lanes];
+  const Sieve sieve = sieve_rectangles(tile, projected.bounds, run.lanes, groups, touched);
   if (!sieve.some) return;
   EdgeLines lines;
   if (!tile.view.frame.perspective) {
     if (sieve.many) lines_from_corners(tile.view.frame, projected, lines);
-    for (int i = 0; i < block_size; ++i)
-      if (touched[i] != 0) meet_parallel(tile, block, i, sieve_edges(tile, lines, i, touched[i]));
+    for (int i = 0; i < run.lanes; ++i)
+      if (touched[i] != 0) meet_parallel(tile, run, i, sieve_edges(tile, lines, i, touched[i]));
     return;
   }
-  const TriangleSetup<B> setup = set_up_triangle(a, b, c);
+  const TriangleSetup<LeafF> setup = set_up_triangle(a, b, c);
   if (sieve.many) lines_from_setup(tile.view.frame, setup, lines);
   const BlockSetup stored = store_setup(setup, reach_of(a, b, c, largest(origin)));
-  for (int i = 0; i < block_size; ++i)
+  for (int i = 0; i < run.lanes; ++i)
     if (touched[i] != 0)
-      meet_from_origin(tile, stored, i, block.primitive[i], sieve_edges(tile, lines, i, touched[i]));
+      meet_from_origin(tile, stored, i, run.primitive(i), sieve_edges(tile, lines, i, touched[i]));
+}
+
+// The rectangles of a run's spheres: those of the boxes around them, along the frame's axes.
+FASTRT_INLINE Rectangles<LeafF> project_spheres(const TileFrame& f, const BlockRun<SphereBlock>& run) {
+  const V3<LeafF> center = load_centers(run) - broadcast3<LeafF>(f.origin);
+  const LeafF reach = load_two<LeafF>(run.low->radius, run.high->radius) + LeafF(f.padding);
+  const LeafF u = dot(center, broadcast3<LeafF>(f.u)), v = dot(center, broadcast3<LeafF>(f.v)),
+              w = dot(center, broadcast3<LeafF>(f.w));
+  return project_extent(f, u - reach, u + reach, v - reach, v + reach, w - reach, w + reach);
 }
 
 template <bool any>
-FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const SphereBlock& block, std::uint32_t groups) {
-  for (int i = 0; i < block_size && block.primitive[i] >= 0; ++i) {
+FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<SphereBlock>& run,
+                            std::uint32_t groups) {
+  std::uint32_t touched[leaf_lanes];
+  const Sieve sieve =
+      sieve_rectangles(tile, project_spheres(tile.view.frame, run), run.lanes, groups, touched);
+  if (!sieve.some) return;
+  for (int lane = 0; lane < run.lanes; ++lane) {
+    const SphereBlock& block = run.block_of(lane);
+    const int i = lane % block_size;
     const V3<PacketF> center = broadcast3<PacketF>(block.x[i], block.y[i], block.z[i]);
     const PacketF radius(block.radius[i]);
-    for (std::uint32_t left = groups; left != 0; left &= left - 1)
+    for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1)
       meet_group(tile, __builtin_ctz(left), block.primitive[i], [&](int ray) -> MetLanes {
         const SphereLanes<PacketF> lanes =
             intersect_sphere(center, radius, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
@@ -218,12 +237,11 @@ FASTRT_INLINE void meet_block(TileTraversal<any>& tile, const SphereBlock& block
 
 template <bool any>
 FASTRT_INLINE void meet_leaf(TileTraversal<any>& tile, std::uint32_t leaf, std::uint32_t groups) {
-  const std::uint32_t first = leaf_first_block(leaf);
-  const std::uint32_t end = first + leaf_blocks(leaf);
+  const auto meet = [&](const auto& run) { meet_run(tile, run, groups); };
   if (leaf_group(leaf) == triangle_group)
-    for (std::uint32_t b = first; b != end; ++b) meet_block(tile, tile.scene.triangles[b], groups);
+    for_each_run(tile.scene.triangles, leaf, meet);
   else
-    for (std::uint32_t b = first; b != end; ++b) meet_block(tile, tile.scene.spheres[b], groups);
+    for_each_run(tile.scene.spheres, leaf, meet);
 }
 
 // What will be looked at soon is asked for now: a miss beyond the last cache costs as much as testing a few
@@ -289,7 +307,7 @@ static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch
   const LiveRays live = find_live_rays(rays);
   if (live.first < 0) return true;
   if (live.backwards) return false;
-  TileTraversal<any> tile{scene, rays, hits, live, {}, {}};
+  TileTraversal<any> tile(scene, rays, hits, live);
   tile.view.frame = make_tile_frame(rays, live);
   if (!project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups)) return false;
   for (int g = 0; g < batch_groups; ++g)

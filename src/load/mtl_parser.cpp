@@ -76,7 +76,7 @@ bool MtlParser::read_statement(std::string_view keyword, Words& words) {
   if (keyword == "kd") return read_colour(words, record.kd);
   if (keyword == "ks") return read_colour(words, record.ks);
   if (keyword == "ke") return read_colour(words, record.ke);
-  if (keyword == "tf") return read_colour(words, record.tf);
+  if (keyword == "tf" || keyword == "kt") return read_colour(words, record.tf);
   if (keyword == "d") return read_share("d", words, record.d);
   if (keyword == "tr") return read_share("Tr", words, record.tr);
   if (keyword == "ns") return read_shininess(words);

@@ -74,8 +74,10 @@ std::string_view name_in(std::string_view rest) {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 80;
-  const bool cut = text.size() > most;
-  return "'" + printable(std::string(text.substr(0, most))) + (cut ? "...'" : "'");
+  std::string shown(1, '\'');
+  shown += printable(std::string(text.substr(0, most)));
+  shown += text.size() > most ? "...'" : "'";
+  return shown;
 }
 
 std::string lower_case(std::string_view text) {

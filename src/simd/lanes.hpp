@@ -109,6 +109,16 @@ FASTRT_INLINE I load(const std::int32_t* from) {
   return I::load_unaligned(from);
 }
 
+// Eight floats from two places, or four from the first: what a register of F holds.
+template <class F>
+FASTRT_INLINE F load_two(const float* low, [[maybe_unused]] const float* high) {
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8)
+    return F(_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1));
+#endif
+  if constexpr (width_of<F> == 4) return F::load_unaligned(low);
+}
+
 // min, max, select and abs of batches are xsimd's own, found by argument-dependent lookup. min and max give
 // the second operand when one is NaN, like minps; docs/numerics.md builds on it.
 
