@@ -41,25 +41,22 @@ bool has_nonzero_digit(std::string_view word) {
 
 } // namespace
 
-bool take_exponent(const char*& p, int& exponent) {
-  const char* q = p + 1;
-  const bool negative = *q == '-';
-  if (negative || *q == '+') ++q;
-  const DigitRun run = take_digits(q);
-  if (run.count == 0 || run.count > 3) return false;
-  exponent += negative ? -static_cast<int>(run.value) : static_cast<int>(run.value);
-  p = q + run.count;
-  return true;
-}
-
-bool take_long_index(const char*& p, std::uint32_t& value) {
-  std::uint64_t wide = 0;
-  const char* q = p;
-  for (; is_digit(*q) && q - p < 11; ++q) wide = wide * 10 + static_cast<std::uint64_t>(*q - '0');
-  if (wide > std::numeric_limits<std::uint32_t>::max()) return false;
-  p = q;
-  value = static_cast<std::uint32_t>(wide);
-  return true;
+const char* take_exponent(const char* p, Decimal decimal, float& value) {
+  ++p;
+  const bool negative = *p == '-';
+  if (negative || *p == '+') ++p;
+  const DigitRun run = take_digits(p);
+  if (run.count == 0 || run.count > 3) return nullptr;
+  const auto written = static_cast<int>(run.value);
+  const int exponent = decimal.exponent + (negative ? -written : written);
+  if (exponent < -22 || exponent > 22) return nullptr; // beyond, powers of ten are not exact
+  const auto exact = static_cast<double>(static_cast<std::int64_t>(decimal.mantissa));
+  const double scaled = exponent < 0 ? exact / exact_powers_of_ten[static_cast<std::size_t>(-exponent)]
+                                     : exact * exact_powers_of_ten[static_cast<std::size_t>(exponent)];
+  const bool normal =
+      scaled >= static_cast<double>(std::numeric_limits<float>::min()) || decimal.mantissa == 0;
+  const bool finite = scaled < static_cast<double>(std::numeric_limits<float>::max());
+  return normal && finite && round_to_float(scaled, decimal.negative, value) ? p + run.count : nullptr;
 }
 
 Number parse_number(std::string_view word) {

@@ -59,60 +59,71 @@ inline constexpr std::array<double, 23> exact_powers_of_ten = {1e0,  1e1,  1e2, 
 inline constexpr std::array<std::uint32_t, 9> small_powers_of_ten = {
     1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-// Takes "e-05" at p and adds it to `exponent`. False if there is no number or a large one.
-bool take_exponent(const char*& p, int& exponent);
+// A number as digits times a power of ten.
+struct Decimal {
+  std::uint64_t mantissa;
+  int exponent;
+  bool negative;
+};
+
+// Goes on at the "e" behind a number. Returns where it ends; null if it needs parse_number.
+const char* take_exponent(const char* p, Decimal decimal, float& value);
+
+// A product of two exact numbers, rounded once, as a float. Rounding a second time to float is right too,
+// unless the double lies half-way between two floats: then the digits that were rounded away decide, and this
+// is false.
+[[gnu::always_inline]] inline bool round_to_float(double scaled, bool negative, float& value) {
+  constexpr std::uint64_t below_float = (std::uint64_t{1} << 29U) - 1;
+  constexpr std::uint64_t half = std::uint64_t{1} << 28U;
+  if ((std::bit_cast<std::uint64_t>(scaled) & below_float) == half) return false;
+  const std::uint32_t sign = negative ? 0x80000000U : 0U; // by bits: signs are hard to predict
+  value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(scaled)) | sign);
+  return true;
+}
 
 // Takes a number at p. False, and p unchanged, if there is none or if it needs parse_number. What follows it
 // is for the caller to check.
 [[gnu::always_inline]] inline bool take_float(const char*& p, float& value) {
-  const char* q = p;
-  const bool negative = *q == '-';
-  if (negative || *q == '+') ++q;
-  const char* first = q;
+  const bool negative = *p == '-';
+  const char* const first = p + (negative ? 1 : 0);
+  const char* q = first;
   std::uint64_t mantissa = 0;
   for (; is_digit(*q); ++q) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*q - '0');
-  int digits = static_cast<int>(q - first);
-  int exponent = 0;
+  auto digits = q - first;
+  int decimals = 0;
   if (*q == '.') {
     ++q;
     const DigitRun run = take_digits(q);
     mantissa = mantissa * small_powers_of_ten[static_cast<std::size_t>(run.count)] + run.value;
     q = step_over(q, run.count);
-    exponent = -run.count;
+    decimals = run.count;
     if (run.count == 8)
-      for (; is_digit(*q); ++q, --exponent) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*q - '0');
-    digits -= exponent;
+      for (; is_digit(*q); ++q, ++decimals) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*q - '0');
+    digits += decimals;
   }
-  if (digits == 0 || digits > 19) return false; // beyond 19 the mantissa may have wrapped around
-  if ((*q == 'e' || *q == 'E') && !take_exponent(q, exponent)) return false;
-  if (mantissa > (std::uint64_t{1} << 53U) || exponent < -22 || exponent > 22) return false;
-
-  // Mantissa and power are exact, so this is rounded once.
-  const auto exact = static_cast<double>(static_cast<std::int64_t>(mantissa));
-  const double scaled = exponent < 0 ? exact / exact_powers_of_ten[static_cast<std::size_t>(-exponent)]
-                                     : exact * exact_powers_of_ten[static_cast<std::size_t>(exponent)];
-  // Rounding a second time to float is right too, unless the double lies half-way between two floats: then
-  // the digits that were rounded away decide.
-  constexpr std::uint64_t below_float = (std::uint64_t{1} << 29U) - 1;
-  constexpr std::uint64_t half = std::uint64_t{1} << 28U;
-  if ((std::bit_cast<std::uint64_t>(scaled) & below_float) == half) return false;
-  if (!(scaled < static_cast<double>(std::numeric_limits<float>::max()))) return false;
-  if (scaled < static_cast<double>(std::numeric_limits<float>::min()) && mantissa != 0) return false;
-  value = static_cast<float>(negative ? -scaled : scaled);
+  // Up to 15 digits the mantissa and the power are exact in double, and the value fits a float.
+  if (digits < 1 || digits > 15) return false;
+  if ((*q | 0x20) == 'e') {
+    q = take_exponent(q, {mantissa, -decimals, negative}, value);
+    if (q == nullptr) return false;
+  } else {
+    const double scaled = static_cast<double>(static_cast<std::int64_t>(mantissa)) /
+                          exact_powers_of_ten[static_cast<std::size_t>(decimals)];
+    if (!round_to_float(scaled, negative, value)) return false;
+  }
   p = q;
   return true;
 }
 
-// The rest of take_index for eight digits and more.
-bool take_long_index(const char*& p, std::uint32_t& value);
-
-// Takes the digits at p. False if there is none or the number exceeds 32 bits.
+// Takes the digits at p. False if there is none, or more than nine.
 [[gnu::always_inline]] inline bool take_index(const char*& p, std::uint32_t& value) {
-  const DigitRun run = take_digits(p);
-  if (run.count == 8) return take_long_index(p, value);
-  p = step_over(p, run.count);
-  value = run.value;
-  return run.count != 0;
+  const char* q = p;
+  std::uint32_t sum = 0;
+  for (; is_digit(*q); ++q) sum = sum * 10 + static_cast<std::uint32_t>(*q - '0');
+  const auto digits = q - p;
+  p = q;
+  value = sum;
+  return digits >= 1 && digits <= 9;
 }
 
 enum class NumberFault { none, not_a_number, not_finite, out_of_range };

@@ -4,53 +4,31 @@
 #include "src/load/number.hpp"
 #include "src/load/text.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace fastrt {
 
-void ObjFiller::fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& start, const ObjCounts& counts,
-                     bool with_care, ObjChunkResult& result) {
-  text_ = buffer.begin();
-  chunk_begin_ = chunk.begin;
-  now_ = start;
-  last_ = start.before;
-  last_ += counts;
-  totals_ = plan_.totals;
-  result_ = &result;
-  char* p = buffer.begin();
-  while (p < buffer.end()) {
-    if (is_line_end(*p) || (!with_care && is_blank(*p))) {
-      ++p;
-    } else if (const char* q = p; !with_care && take_plain(q)) {
-      p += q - p;
-    } else if (!read_line(p, buffer.end())) {
-      return;
-    }
-  }
-  if (chunk.torn) {
-    result.log.fail(line_offset_, "line too long: more than 1 MiB with its continuations");
-    return;
-  }
-  const ObjCounts& done = now_.before;
-  const bool complete = done.positions == last_.positions && done.normals == last_.normals &&
-                        done.uvs == last_.uvs && done.triangles == last_.triangles;
-  if (!complete) source_.fail_changed();
-}
-
 namespace {
 
-// Takes `least` numbers or as many more as there is room for, and the blanks up to the line end.
+// The fast way knows no other blank than spaces.
+[[gnu::always_inline]] inline const char* skip_spaces(const char* p) {
+  while (*p == ' ') ++p;
+  return p;
+}
+
+// Takes `least` numbers or as many more as there is room for, and the spaces up to the line end.
 template <std::size_t most>
 [[gnu::always_inline]] inline bool take_numbers(const char*& p, std::size_t least,
                                                 std::array<float, most>& numbers) {
+  const char* q = p;
   for (std::size_t count = 0; count != most; ++count) {
-    while (is_blank(*p)) ++p;
-    if (count >= least && is_line_end(*p)) break;
-    if (!take_float(p, numbers[count])) return false;
-    if (!is_blank(*p) && !is_line_end(*p)) return false;
+    q = skip_spaces(q);
+    if (count >= least && is_line_end(*q)) break;
+    if (!take_float(q, numbers[count])) return false;
+    if (*q != ' ' && count + 1 < least) return false;
+    if (*q != ' ' && !is_line_end(*q)) return false;
   }
-  while (is_blank(*p)) ++p;
+  p = skip_spaces(q);
   return is_line_end(*p);
 }
 
@@ -82,73 +60,66 @@ template <std::size_t most>
       if (!take_reference(p, totals.normals, so_far.normals, corner.n)) return false;
     }
   }
-  return is_blank(*p) || is_line_end(*p);
+  return *p == ' ' || is_line_end(*p);
 }
 
 } // namespace
 
-bool ObjFiller::take_plain(const char*& next) {
+inline void ObjFiller::put_state(std::uint64_t i) {
+  desc_.triangles.material[i] = now_.material;
+  desc_.triangles.object[i] = now_.object;
+  if (smoothing_ != nullptr) (*smoothing_)[i] = now_.smoothing;
+}
+
+// Three bare vertex indices that end the line, in a file whose faces have nothing else.
+[[gnu::always_inline]] inline bool ObjFiller::take_bare_face(const char*& next) {
   const char* p = next;
-  if (p[0] == 'f' && is_blank(p[1])) {
-    p += 2;
-    if (!take_face(p)) return false;
-  } else if (p[0] == 'v' && is_blank(p[1])) {
-    std::array<float, 3> numbers;
-    p += 2;
-    if (!take_numbers(p, 3, numbers)) return false;
-    put_position(numbers);
-  } else if (p[0] == 'v' && (p[1] == 'n' || p[1] == 't') && is_blank(p[2])) {
-    std::array<float, 3> numbers{};
-    const bool is_normal = p[1] == 'n';
-    p += 3;
-    if (!take_numbers(p, is_normal ? 3 : 2, numbers)) return false;
-    if (is_normal && numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) return false;
-    if (is_normal)
-      put_normal(numbers);
-    else
-      put_uv(numbers);
-  } else {
-    return false;
+  const std::uint64_t i = now_.before.triangles;
+  std::array<std::uint32_t, 3> v;
+  for (std::uint32_t& index : v) {
+    p = skip_spaces(p);
+    if (!take_reference(p, totals_.positions, now_.before.positions, index)) return false;
+    if (*p != ' ' && !is_line_end(*p)) return false;
   }
+  p = skip_spaces(p);
+  if (!is_line_end(*p) || i == last_.triangles) return false;
+  TriangleColumns& rows = desc_.triangles;
+  rows.v0[i] = v[0], rows.v1[i] = v[1], rows.v2[i] = v[2];
+  put_state(i);
+  now_.before.triangles = i + 1;
   next = p;
   return true;
 }
 
-bool ObjFiller::take_face(const char*& p) {
+// Three corners that end the line, as most faces have.
+bool ObjFiller::take_face(const char*& next) {
+  const char* p = next;
   const ObjCounts so_far = now_.before;
-  std::array<Corner, 4> corners;
-  std::size_t count = 0;
-  for (;; ++count) {
-    while (is_blank(*p)) ++p;
-    if (is_line_end(*p)) break;
-    if (count == corners.size()) return take_polygon(p, corners);
-    if (!take_corner(p, totals_, so_far, corners[count])) return false;
+  std::array<Corner, 3> corners;
+  for (Corner& corner : corners) {
+    p = skip_spaces(p);
+    if (!take_corner(p, totals_, so_far, corner)) return false;
   }
-  if (count < 3 || !match({corners.data(), count})) return false;
-  put_face({corners.data(), count});
+  p = skip_spaces(p);
+  next = p;
+  if (!is_line_end(*p)) return take_polygon(next, corners);
+  if (!match(corners)) return false;
+  put_face(corners);
   return true;
 }
 
-// Goes on behind the fourth corner.
+// Goes on behind the third corner.
 bool ObjFiller::take_polygon(const char*& p, std::span<const Corner> first) {
   corners_.assign(first.begin(), first.end());
   while (!is_line_end(*p)) {
     Corner corner;
     if (corners_.size() == max_face_corners || !take_corner(p, totals_, now_.before, corner)) return false;
     corners_.push_back(corner);
-    while (is_blank(*p)) ++p;
+    p = skip_spaces(p);
   }
   if (!match(corners_)) return false;
   put_face(corners_);
   return true;
-}
-
-// Whether all corners have, or have not, texture coordinates and normals.
-bool ObjFiller::match(std::span<const Corner> corners) {
-  const auto differs = [&first = corners[0]](const Corner& corner) {
-    return (corner.t == no_index) != (first.t == no_index) || (corner.n == no_index) != (first.n == no_index);
-  };
-  return std::none_of(corners.begin() + 1, corners.end(), differs);
 }
 
 void ObjFiller::put_position(std::span<const float> numbers) {
@@ -192,14 +163,70 @@ void ObjFiller::put_face(std::span<const Corner> corners) {
     rows.v0[i] = a.v, rows.v1[i] = b.v, rows.v2[i] = c.v;
     if (plan_.has_normals) rows.n0[i] = a.n, rows.n1[i] = b.n, rows.n2[i] = c.n;
     if (plan_.has_uvs) rows.t0[i] = a.t, rows.t1[i] = b.t, rows.t2[i] = c.t;
-    rows.material[i] = now_.material;
-    rows.object[i] = now_.object;
-    if (smoothing_ != nullptr) (*smoothing_)[i] = now_.smoothing;
+    put_state(i);
   }
   now_.before.triangles = first + count;
-  result_->uses_default_material |= now_.material == plan_.default_material;
   result_->uses_normals |= corners[0].n != no_index;
   result_->uses_uvs |= corners[0].t != no_index;
+}
+
+[[gnu::always_inline]] inline bool ObjFiller::take_plain(const char*& next) {
+  const char* p = next;
+  if (p[0] == 'f' && is_blank(p[1])) {
+    p += 2;
+    if (!(bare_faces_ && take_bare_face(p)) && !take_face(p)) return false;
+  } else if (p[0] == 'v' && is_blank(p[1])) {
+    std::array<float, 3> numbers;
+    p += 2;
+    if (!take_numbers(p, 3, numbers)) return false;
+    put_position(numbers);
+  } else if (p[0] == 'v' && (p[1] == 'n' || p[1] == 't') && is_blank(p[2])) {
+    std::array<float, 3> numbers{};
+    const bool is_normal = p[1] == 'n';
+    p += 3;
+    if (!take_numbers(p, is_normal ? 3 : 2, numbers)) return false;
+    if (is_normal && numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) return false;
+    if (is_normal)
+      put_normal(numbers);
+    else
+      put_uv(numbers);
+  } else {
+    return false;
+  }
+  next = p;
+  return true;
+}
+
+void ObjFiller::fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& start, const ObjCounts& counts,
+                     bool with_care, ObjChunkResult& result) {
+  text_ = buffer.begin();
+  chunk_begin_ = chunk.begin;
+  now_ = start;
+  last_ = start.before;
+  last_ += counts;
+  totals_ = plan_.totals;
+  bare_faces_ = !plan_.has_normals && !plan_.has_uvs;
+  material_since_ = start.before.triangles;
+  result_ = &result;
+  char* p = buffer.begin();
+  while (p < buffer.end()) {
+    if (is_line_end(*p) || (!with_care && is_blank(*p))) {
+      ++p;
+    } else if (const char* q = p; !with_care && take_plain(q)) {
+      p += q - p;
+    } else if (!read_line(p, buffer.end())) {
+      return;
+    }
+  }
+  if (chunk.torn) {
+    result.log.fail(line_offset_, "line too long: more than 1 MiB with its continuations");
+    return;
+  }
+  note_material();
+  const ObjCounts& done = now_.before;
+  const bool complete = done.positions == last_.positions && done.normals == last_.normals &&
+                        done.uvs == last_.uvs && done.triangles == last_.triangles;
+  if (!complete) source_.fail_changed();
 }
 
 } // namespace fastrt

@@ -18,6 +18,15 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
+// Whether all corners have, or have not, texture coordinates and normals.
+inline bool match(std::span<const Corner> corners) {
+  bool same = true;
+  for (const Corner& corner : corners)
+    same &= (corner.t == no_index) == (corners[0].t == no_index) &&
+            (corner.n == no_index) == (corners[0].n == no_index);
+  return same;
+}
+
 // Fills the rows that belong to one chunk. Stops at the first error, which goes to the result's log.
 class ObjFiller {
 public:
@@ -31,9 +40,9 @@ public:
 private:
   // The fast way: false, and nothing done, for everything that is not plain. Else `next` is at the line end.
   bool take_plain(const char*& next);
-  bool take_face(const char*& p);
+  bool take_bare_face(const char*& next);
+  bool take_face(const char*& next);
   bool take_polygon(const char*& p, std::span<const Corner> first);
-  static bool match(std::span<const Corner> corners);
 
   // The careful way: knows everything and says what is wrong. False after an error.
   bool read_line(char*& p, char* limit);
@@ -44,6 +53,7 @@ private:
   bool read_reference(std::string_view text, std::uint64_t offset, int which, std::uint32_t& index);
   void read_state(std::string_view keyword, std::string_view rest);
   void use_material(std::string_view name);
+  void note_material();
   void start_object(std::string_view name);
   void warn_about_keyword(std::string_view keyword);
 
@@ -51,6 +61,7 @@ private:
   void put_normal(std::span<const float> numbers);
   void put_uv(std::span<const float> numbers);
   void put_face(std::span<const Corner> corners);
+  void put_state(std::uint64_t i);
   std::uint64_t offset_of(const char* p) const {
     return chunk_begin_ + static_cast<std::uint64_t>(p - text_);
   }
@@ -66,7 +77,9 @@ private:
   std::uint64_t line_offset_ = 0;
   ObjState now_; // `before` counts what has been read so far
   ObjCounts totals_;
-  ObjCounts last_; // what `before` will be at the chunk's end
+  bool bare_faces_ = false;          // no face has texture coordinates or normals
+  ObjCounts last_;                   // what `before` will be at the chunk's end
+  std::uint64_t material_since_ = 0; // the first triangle of the current material
   ObjChunkResult* result_ = nullptr;
   std::vector<Corner> corners_;
 };

@@ -188,7 +188,15 @@ void ObjFiller::read_state(std::string_view keyword, std::string_view rest) {
   }
 }
 
+// To be called when the material changes and at the end.
+void ObjFiller::note_material() {
+  const bool used = now_.before.triangles != material_since_;
+  result_->uses_default_material |= used && now_.material == plan_.default_material;
+  material_since_ = now_.before.triangles;
+}
+
 void ObjFiller::use_material(std::string_view name) {
+  note_material();
   const auto found = plan_.materials.find(name);
   now_.material = found == plan_.materials.end() ? plan_.default_material : found->second;
   if (found != plan_.materials.end()) return;

@@ -24,7 +24,7 @@ struct ObjReaderSettings {
   int threads = 1;
   bool strict = false;
   std::string object_name;               // of faces before any `o` or `g`
-  std::size_t chunk_bytes = 512U * 1024; // at least 4; the result does not depend on it
+  std::size_t chunk_bytes = 256U * 1024; // at least 4; the result does not depend on it
   LibraryReader read_library;            // may be empty: material files are passed over
 };
 

@@ -65,6 +65,8 @@ public:
     // The line feed behind the text ends the last line.
     for (char* block = begin_; block <= end_;) block = scan_block(block, masks_of(block, nuls));
     if (_mm_movemask_epi8(nuls) != 0) summary_.needs_care = true;
+    note_faces_before(summary_.counts.objects, summary_.face_before_object);
+    note_faces_before(summary_.counts.groups, summary_.face_before_group);
     if (last_material_.data() != nullptr) summary_.material.emplace(last_material_);
     return std::move(summary_);
   }
@@ -130,8 +132,11 @@ private:
   void count_face(std::size_t triangles, bool slashed) {
     summary_.counts.triangles += triangles;
     summary_.has_slash |= slashed;
-    summary_.face_before_object |= summary_.counts.objects == 0;
-    summary_.face_before_group |= summary_.counts.groups == 0;
+  }
+
+  // To be called before the first of its kind, or at the end.
+  void note_faces_before(std::uint64_t started, bool& face_before) const {
+    if (started == 0) face_before = summary_.counts.triangles != 0;
   }
 
   // Reads the line there with its continuations. Returns the one after.
@@ -147,9 +152,9 @@ private:
     } else if (keyword == "f") {
       count_face(triangles_in_face(rest), rest.find('/') != std::string_view::npos);
     } else if (keyword == "o") {
-      ++summary_.counts.objects;
+      note_faces_before(summary_.counts.objects++, summary_.face_before_object);
     } else if (keyword == "g") {
-      ++summary_.counts.groups;
+      note_faces_before(summary_.counts.groups++, summary_.face_before_group);
     } else if (keyword == "usemtl") {
       last_material_ = name_in(rest);
     } else if (keyword == "s") {
