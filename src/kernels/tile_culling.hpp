@@ -203,7 +203,9 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
   ax = ax * ai, bx = bx * bi, cx = cx * ci, ay = ay * ai, by = by * bi, cy = cy * ci;
   const LeafF x0 = min(ax, min(bx, cx)), x1 = max(ax, max(bx, cx)), y0 = min(ay, min(by, cy)),
               y1 = max(ay, max(by, cy));
-  const LeafF mx = ((abs(x0) + abs(x1)) + one) * margin, my = ((abs(y0) + abs(y1)) + one) * margin;
+  // A hit may lie outside its triangle by rounding: by a share of the plane, and by the padding in space.
+  const LeafF share = margin + padding * max(ai, max(bi, ci));
+  const LeafF mx = ((abs(x0) + abs(x1)) + one) * share, my = ((abs(y0) + abs(y1)) + one) * share;
   const LeafF outside = select(within, negate(everywhere), everywhere);
   return {{select(around, outside, x0 - mx), select(around, everywhere, x1 + mx),
            select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near},

@@ -120,7 +120,18 @@ FASTRT_INLINE PacketM project_rays(const TileFrame& f, const RayBatch& rays, std
   return (scale * scale > PacketF(0.25F) * dot(dir, dir)) & (scale > PacketF(0.0F));
 }
 
-// False if the rays spread too widely to be seen from one plane.
+// Whether the groups' rectangles lie side by side, more or less. Scattered rays share few nodes: traced as
+// one, each would be shown what all the others need.
+FASTRT_INLINE bool groups_are_compact(const TileGroups& groups) {
+  float sum = 0.0F;
+  for (int g = 0; g < batch_groups; ++g)
+    if (groups.x0[g] <= groups.x1[g]) sum += (groups.x1[g] - groups.x0[g]) * (groups.y1[g] - groups.y0[g]);
+  const float width = most_of(groups.x1) - least_of(groups.x0);
+  const float height = most_of(groups.y1) - least_of(groups.y0);
+  return sum <= 6.0F * width * height;
+}
+
+// False if the rays spread too widely to be seen from one plane, or lie in it without order.
 FASTRT_INLINE bool project_batch(const GeometryView& scene, const RayBatch& rays, const LiveRays& live,
                                  TileFrame& f, TilePoints& points, TileGroups& groups) {
   for (int i = 0; i < batch_size; i += widest) {
@@ -132,6 +143,7 @@ FASTRT_INLINE bool project_batch(const GeometryView& scene, const RayBatch& rays
   min_of_groups(points.y, groups.y0);
   max_of_groups(points.minus_x, groups.x1);
   max_of_groups(points.minus_y, groups.y1);
+  if (!groups_are_compact(groups)) return false;
   max_of_groups(points.minus_scale, groups.depth_scale);
   max_of_groups(points.minus_offset, groups.depth_offset);
   alignas(64) float least_offset[batch_groups];
@@ -148,7 +160,8 @@ FASTRT_INLINE float group_far(const HitBatch& hits, const TileGroups& groups, st
     const PacketM mask = from_bits<widest>((live >> k) & ((1U << (widest - 1)) * 2U - 1U));
     most = max(most, select(mask, PacketF::load_aligned(hits.t + first + k), PacketF(0.0F)));
   }
-  return depth_bound(groups.depth_offset[g] + reduce_max(most) * groups.depth_scale[g]);
+  const float begin = groups.depth_offset[g], way = reduce_max(most) * groups.depth_scale[g];
+  return (begin + way) + (magnitude(begin) + way) * depth_slack;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

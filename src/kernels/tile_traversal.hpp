@@ -94,7 +94,7 @@ FASTRT_INLINE V3<PacketF> load_origin(const RayBatch& rays, int i) {
 
 // Set-ups and reaches of a run as columns, so that one can be spread over a register.
 struct BlockSetup {
-  alignas(32) float columns[19][leaf_lanes];
+  alignas(32) float columns[22][leaf_lanes];
 };
 
 FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<LeafF>& s, const TriangleReach<LeafF>& r) {
@@ -106,6 +106,7 @@ FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<LeafF>& s, const Triang
   s.offset.store_aligned(out.columns[12]);
   store3(r.low, out.columns[13], out.columns[14], out.columns[15]);
   store3(r.high, out.columns[16], out.columns[17], out.columns[18]);
+  store3(V3<LeafF>{s.slack_a, s.slack_b, s.slack_c}, out.columns[19], out.columns[20], out.columns[21]);
   return out;
 }
 
@@ -117,8 +118,15 @@ FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
 template <bool any>
 FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, int i,
                                     std::int32_t primitive, std::uint32_t groups) {
-  const TriangleSetup<PacketF> setup{spread(block, 0, i), spread(block, 3, i), spread(block, 6, i),
-                                     spread(block, 9, i), PacketF(block.columns[12][i])};
+  const V3<PacketF> slack = spread(block, 19, i);
+  const TriangleSetup<PacketF> setup{spread(block, 0, i),
+                                     spread(block, 3, i),
+                                     spread(block, 6, i),
+                                     spread(block, 9, i),
+                                     PacketF(block.columns[12][i]),
+                                     slack.x,
+                                     slack.y,
+                                     slack.z};
   const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
   for (; groups != 0; groups &= groups - 1)
     meet_group(tile, __builtin_ctz(groups), primitive, [&](int ray) -> MetLanes {

@@ -12,14 +12,25 @@ template <class F>
 struct TriangleSetup {
   V3<F> edge_a, edge_b, edge_c; // normals of the planes through the origin and an edge
   V3<F> normal;
-  F offset; // T: the normal's component of the vector to the triangle
+  F offset;                    // T: the normal's component of the vector to the triangle
+  F slack_a, slack_b, slack_c; // how far outside an edge still counts, per size of the direction
 };
 
 // a, b, c: vertices relative to the ray's origin.
 template <class F>
 FASTRT_INLINE TriangleSetup<F> set_up_triangle(const V3<F>& a, const V3<F>& b, const V3<F>& c) {
-  TriangleSetup<F> s{cross(b - c, b + c), cross(c - a, c + a), cross(a - b, a + b), cross(b - a, c - a),
+  TriangleSetup<F> s{cross(b - c, b + c),
+                     cross(c - a, c + a),
+                     cross(a - b, a + b),
+                     cross(b - a, c - a),
+                     F(0.0F),
+                     F(0.0F),
+                     F(0.0F),
                      F(0.0F)};
+  const F share(0x1p-22F);
+  s.slack_a = share * largest(s.edge_a);
+  s.slack_b = share * largest(s.edge_b);
+  s.slack_c = share * largest(s.edge_c);
   s.offset = dot(a, s.normal);
   const F sign = sign_bit(s.offset);
   s.edge_a = flip(s.edge_a, sign);
@@ -83,8 +94,9 @@ FASTRT_INLINE TriangleLanes<F> intersect_triangle(const TriangleSetup<F>& s, con
   const F u = dot(dir, s.edge_a);
   const F v = dot(dir, s.edge_b);
   const F w = dot(dir, s.edge_c);
-  const F sum = (u + v) + w;
-  const MaskOf<F> inside = min(u, min(v, w)) >= negate(F(0x1p-23F) * abs(sum));
+  const F size = largest(dir);
+  const MaskOf<F> inside =
+      (u >= negate(s.slack_a * size)) & (v >= negate(s.slack_b * size)) & (w >= negate(s.slack_c * size));
   if (to_bits(inside) == 0) return {inside, F(0.0F)};
   const TriangleLanes<F> lanes{inside, s.offset / dot(dir, s.normal)};
   const TriangleReach<F> r = reach();

@@ -12,11 +12,16 @@ struct ByteMasks {
   std::uint64_t line_ends; // line feed, carriage return
   std::uint64_t blanks;    // these, space and every control character
   std::uint64_t marks;     // # and backslash: the line wants a closer look
-  std::uint64_t slashes;
 };
 
-// SSE2 is part of every x86-64, so this needs no choice of ISA. `nuls` collects where bytes are 0.
-inline ByteMasks masks_of(const char* text, __m128i& nuls) {
+// Bytes of which only matters whether they occur: all ones where one did.
+struct ByteTraces {
+  __m128i nuls = _mm_setzero_si128();
+  __m128i slashes = _mm_setzero_si128();
+};
+
+// SSE2 is part of every x86-64, so this needs no choice of ISA.
+inline ByteMasks masks_of(const char* text, ByteTraces& traces) {
   ByteMasks masks{};
   const auto bits = [](__m128i lanes) { return static_cast<std::uint64_t>(_mm_movemask_epi8(lanes)); };
   const __m128i zero = _mm_setzero_si128();
@@ -27,8 +32,8 @@ inline ByteMasks masks_of(const char* text, __m128i& nuls) {
     masks.line_ends |= bits(_mm_or_si128(equal('\n'), equal('\r'))) << i;
     masks.blanks |= bits(_mm_cmpeq_epi8(_mm_max_epu8(bytes, space), space)) << i;
     masks.marks |= bits(_mm_or_si128(equal('#'), equal('\\'))) << i;
-    masks.slashes |= bits(equal('/')) << i;
-    nuls = _mm_or_si128(nuls, _mm_cmpeq_epi8(bytes, zero));
+    traces.nuls = _mm_or_si128(traces.nuls, _mm_cmpeq_epi8(bytes, zero));
+    traces.slashes = _mm_or_si128(traces.slashes, equal('/'));
   }
   return masks;
 }

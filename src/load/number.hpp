@@ -117,13 +117,16 @@ const char* take_exponent(const char* p, Decimal decimal, float& value);
 
 // Takes the digits at p. False if there is none, or more than nine.
 [[gnu::always_inline]] inline bool take_index(const char*& p, std::uint32_t& value) {
-  const char* q = p;
-  std::uint32_t sum = 0;
-  for (; is_digit(*q); ++q) sum = sum * 10 + static_cast<std::uint32_t>(*q - '0');
-  const auto digits = q - p;
+  const DigitRun run = take_digits(p);
+  const char* q = step_over(p, run.count);
+  std::uint32_t sum = run.value;
+  if (run.count == 8) {
+    if (is_digit(*q)) sum = sum * 10 + static_cast<std::uint32_t>(*q++ - '0');
+    if (is_digit(*q)) return false;
+  }
   p = q;
   value = sum;
-  return digits >= 1 && digits <= 9;
+  return run.count != 0;
 }
 
 enum class NumberFault { none, not_a_number, not_finite, out_of_range };

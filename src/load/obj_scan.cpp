@@ -51,7 +51,7 @@ struct LineSoFar {
   char* begin;
   char* word = nullptr; // the first one
   std::size_t words = 0;
-  bool marked = false, slashed = false;
+  bool marked = false;
 };
 
 class ObjScan {
@@ -60,11 +60,12 @@ public:
       : begin_(buffer.begin()), end_(buffer.end()), chunk_begin_(chunk_begin) {}
 
   ObjSummary run() {
-    __m128i nuls = _mm_setzero_si128();
+    ByteTraces traces;
     line_.begin = begin_;
     // The line feed behind the text ends the last line.
-    for (char* block = begin_; block <= end_;) block = scan_block(block, masks_of(block, nuls));
-    if (_mm_movemask_epi8(nuls) != 0) summary_.needs_care = true;
+    for (char* block = begin_; block <= end_;) block = scan_block(block, masks_of(block, traces));
+    if (_mm_movemask_epi8(traces.nuls) != 0) summary_.needs_care = true;
+    summary_.has_slash = _mm_movemask_epi8(traces.slashes) != 0;
     note_faces_before(summary_.counts.objects, summary_.face_before_object);
     note_faces_before(summary_.counts.groups, summary_.face_before_group);
     if (last_material_.data() != nullptr) summary_.material.emplace(last_material_);
@@ -83,7 +84,6 @@ private:
       if (line.word == nullptr && here != 0) line.word = block + std::countr_zero(here);
       line.words += count_bits(here);
       line.marked |= (masks.marks & part) != 0;
-      line.slashed |= (masks.slashes & part) != 0;
     };
     for (std::uint64_t ends = masks.line_ends; ends != 0; ends &= ends - 1) {
       char* const end = block + std::countr_zero(ends);
@@ -105,7 +105,7 @@ private:
     if (*word == '#') return true;
     if (line.marked) return false;
     if (*word == 'f' && ends_word(word[1])) {
-      count_face(line.words < 3 ? 0 : line.words - 3, line.slashed);
+      summary_.counts.triangles += line.words < 3 ? 0 : line.words - 3;
       return true;
     }
     if (*word != 'v') return false;
@@ -129,11 +129,6 @@ private:
       ++counts.uvs;
   }
 
-  void count_face(std::size_t triangles, bool slashed) {
-    summary_.counts.triangles += triangles;
-    summary_.has_slash |= slashed;
-  }
-
   // To be called before the first of its kind, or at the end.
   void note_faces_before(std::uint64_t started, bool& face_before) const {
     if (started == 0) face_before = summary_.counts.triangles != 0;
@@ -150,7 +145,7 @@ private:
     if (keyword == "v" || keyword == "vn" || keyword == "vt") {
       count_vertex(keyword);
     } else if (keyword == "f") {
-      count_face(triangles_in_face(rest), rest.find('/') != std::string_view::npos);
+      summary_.counts.triangles += triangles_in_face(rest);
     } else if (keyword == "o") {
       note_faces_before(summary_.counts.objects++, summary_.face_before_object);
     } else if (keyword == "g") {

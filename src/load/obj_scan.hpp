@@ -26,7 +26,7 @@ struct ObjSummary {
   ObjCounts counts;
   std::uint64_t lines = 0; // line ends
   bool face_before_object = false, face_before_group = false;
-  bool has_slash = false;     // in a face
+  bool has_slash = false;     // so that faces may name more than positions
   bool needs_care = false;    // holds a NUL or a line that is too long
   bool has_smoothing = false; // a smoothing group other than 0
   // What the last `usemtl` and `s` say, if there are any.

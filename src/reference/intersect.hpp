@@ -89,9 +89,12 @@ inline Intersection intersect_triangle(const Ray& ray, const TriangleVertices& t
 
   const Vec3 normal = glm::cross(b - a, c - a);
   float plane = glm::dot(a, normal);
-  float weight_a = glm::dot(d, glm::cross(b - c, b + c));
-  float weight_b = glm::dot(d, glm::cross(c - a, c + a));
-  float weight_c = glm::dot(d, glm::cross(a - b, a + b));
+  const Vec3 edge_a = glm::cross(b - c, b + c);
+  const Vec3 edge_b = glm::cross(c - a, c + a);
+  const Vec3 edge_c = glm::cross(a - b, a + b);
+  float weight_a = glm::dot(d, edge_a);
+  float weight_b = glm::dot(d, edge_b);
+  float weight_c = glm::dot(d, edge_c);
   float slope = glm::dot(d, normal);
   // Seen from the back, everything changes its sign.
   if (std::signbit(plane)) {
@@ -103,7 +106,11 @@ inline Intersection intersect_triangle(const Ray& ray, const TriangleVertices& t
   }
 
   const float sum = (weight_a + weight_b) + weight_c;
-  const bool inside = min(weight_a, min(weight_b, weight_c)) >= -(0x1p-23F * std::fabs(sum));
+  // Rounding may put a ray that is aimed at a vertex outside of all triangles around it by this much.
+  const float size = largest_magnitude(d);
+  const bool inside = weight_a >= -((0x1p-22F * largest_magnitude(edge_a)) * size) &&
+                      weight_b >= -((0x1p-22F * largest_magnitude(edge_b)) * size) &&
+                      weight_c >= -((0x1p-22F * largest_magnitude(edge_c)) * size);
   if (!inside) return {false, ray.t_max, 0, 0};
   float t = plane / slope;
   const Reach reach = reach_of(a, b, c, ray.origin);
