@@ -53,12 +53,18 @@ FASTRT_INLINE V3<float> ray_origin(const RayBatch& rays, int i) {
   return {rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]};
 }
 
-// A direction across w, along `hint` if that says anything.
+// What is left of a without its part along the unit vector w.
+FASTRT_INLINE V3<float> part_across(const V3<float>& a, const V3<float>& w) {
+  const float along = dot(a, w);
+  return {a.x - along * w.x, a.y - along * w.y, a.z - along * w.z};
+}
+
+// A direction across w, along `hint` if that says anything. Twice over: where the hint runs almost along w,
+// the first time leaves an error that far rays would see.
 FASTRT_INLINE V3<float> direction_across(const V3<float>& w, const V3<float>& hint) {
-  const float along = dot(hint, w);
-  const V3<float> across{hint.x - along * w.x, hint.y - along * w.y, hint.z - along * w.z};
+  const V3<float> across = part_across(hint, w);
   const float length2 = dot(across, across);
-  if (length2 > 1e-6F * dot(hint, hint) && length2 > 1e-30F) return unit(across);
+  if (length2 > 1e-6F * dot(hint, hint) && length2 > 1e-30F) return unit(part_across(unit(across), w));
   const float ax = __builtin_fabsf(w.x), ay = __builtin_fabsf(w.y), az = __builtin_fabsf(w.z);
   if (ax <= ay && ax <= az) return unit({0.0F, w.z, -w.y});
   if (ay <= az) return unit({-w.z, 0.0F, w.x});
