@@ -55,7 +55,8 @@ FASTRT_INLINE TriangleReach<F> reach_of(const V3<F>& a, const V3<F>& b, const V3
                                         const F& largest_origin) {
   const V3<F> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
   const V3<F> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
-  const F margin = (max(largest(low), largest(high)) + largest_origin) * F(reach_margin);
+  const F share(reach_margin);
+  const F margin = max(largest(low), largest(high)) * share + largest_origin * share;
   const V3<F> m{margin, margin, margin};
   return {low - m, high + m};
 }

@@ -50,7 +50,7 @@ inline Reach reach_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& o
     reach.high[axis] = max(a[axis], max(b[axis], c[axis]));
   }
   const float size = max(largest_magnitude(reach.low), largest_magnitude(reach.high));
-  const float margin = (size + largest_magnitude(origin)) * 0x1p-21F;
+  const float margin = size * 0x1p-21F + largest_magnitude(origin) * 0x1p-21F;
   reach.low = reach.low - Vec3(margin);
   reach.high = reach.high + Vec3(margin);
   return reach;
