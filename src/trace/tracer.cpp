@@ -87,7 +87,7 @@ void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
   stats.leaf_count = leaf_count(tree);
   stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size();
   stats.depth = tree_depth(tree);
-  stats.bytes = parts.nodes.size() * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
+  stats.bytes = tree.nodes.size() * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
                 parts.sphere_blocks.size() * sizeof(SphereBlock);
   const std::uint32_t primitives = parts.scene.primitive_count();
   stats.bytes_per_primitive = primitives == 0 ? 0.0 : static_cast<double>(stats.bytes) / primitives;
