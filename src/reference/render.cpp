@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/reference/render.hpp"
 
+#include "src/film/frame.hpp"
 #include "src/film/sampling.hpp"
 #include "src/scene/threads.hpp"
 
-#include <fastrt/error.hpp>
-
 #include <exception>
-#include <mutex>
-#include <string>
-#include <utility>
 
 namespace fastrt {
 namespace reference {
 namespace {
-
-void check(const RenderSettings& settings) {
-  if (settings.width < 1 || settings.width > 65536 || settings.height < 1 || settings.height > 65536)
-    throw UsageError("picture size " + std::to_string(settings.width) + "x" +
-                     std::to_string(settings.height) + " is not within 1..65536");
-  if (settings.samples_per_pixel < 1)
-    throw UsageError("samples per pixel must be at least 1, not " +
-                     std::to_string(settings.samples_per_pixel));
-}
 
 struct Pixel {
   Vec3 color{0.0F};
@@ -84,59 +71,6 @@ RayCounts render_row(const Job& job, int y, Frame& frame) {
   return rays;
 }
 
-Frame black_frame(int width, int height) {
-  Frame frame;
-  frame.width = width;
-  frame.height = height;
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  frame.rgb.assign(3 * pixels, 0.0F);
-  frame.primitive.assign(pixels, no_primitive);
-  return frame;
-}
-
-// How far the picture is, shared by the threads that make it.
-class Progress {
-public:
-  explicit Progress(const RenderSettings& settings) : settings_(&settings) {}
-
-  bool stopped() {
-    const std::lock_guard lock(mutex_);
-    if (settings_->cancelled != nullptr && settings_->cancelled->load()) stopped_ = true;
-    return stopped_;
-  }
-
-  void row_done(const RayCounts& rays) {
-    const std::lock_guard lock(mutex_);
-    rays_.primary += rays.primary;
-    rays_.shadow += rays.shadow;
-    rays_.reflected += rays.reflected;
-    rays_.refracted += rays.refracted;
-    ++rows_done_;
-    if (settings_->progress) settings_->progress(static_cast<double>(rows_done_) / settings_->height);
-  }
-
-  // Exceptions must not leave a parallel region; the first one leaves through finish().
-  void failed(std::exception_ptr error) {
-    const std::lock_guard lock(mutex_);
-    stopped_ = true;
-    if (!error_) error_ = std::move(error);
-  }
-
-  void finish(Frame& frame) {
-    if (error_) std::rethrow_exception(error_);
-    frame.rays = rays_;
-    frame.complete = rows_done_ == settings_->height;
-  }
-
-private:
-  const RenderSettings* settings_;
-  std::mutex mutex_;
-  RayCounts rays_;
-  int rows_done_ = 0;
-  bool stopped_ = false;
-  std::exception_ptr error_;
-};
-
 } // namespace
 
 Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
@@ -144,11 +78,11 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
   check(settings);
   const Job job{&scene, &finder, &settings, make_camera_frame(camera, settings.width, settings.height)};
   Frame frame = black_frame(settings.width, settings.height);
-  Progress progress(settings);
+  FrameProgress progress(settings, settings.height);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count(settings.threads))
   for (int y = 0; y < settings.height; ++y) {
     try {
-      if (!progress.stopped()) progress.row_done(render_row(job, y, frame));
+      if (!progress.stopped()) progress.part_done(render_row(job, y, frame));
     } catch (...) {
       progress.failed(std::current_exception());
     }

@@ -16,12 +16,11 @@ complain() {
 floor_of() {
   case $1 in
     simd/* | film/sampling.hpp) echo 0 ;;
-    load/* | scene/*) echo 1 ;;
+    load/* | scene/* | film/*) echo 1 ;;
     accel/*) echo 2 ;;
     trace/* | kernels/* | reference/*) echo 3 ;;
-    film/*) echo 4 ;;
-    write/* | render/*) echo 5 ;;
-    cli/*) echo 6 ;;
+    write/* | render/*) echo 4 ;;
+    cli/*) echo 5 ;;
     *) echo unknown ;;
   esac
 }
