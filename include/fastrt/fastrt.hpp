@@ -11,6 +11,7 @@
 //   fastrt::write_image("bunny.png", frame.rgb, frame.width, frame.height);
 #pragma once
 
+#include <fastrt/aov.hpp>
 #include <fastrt/camera.hpp>
 #include <fastrt/column.hpp>
 #include <fastrt/diagnostics.hpp>

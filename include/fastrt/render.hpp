@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/aov.hpp>
 #include <fastrt/camera.hpp>
 #include <fastrt/tracer.hpp>
 
@@ -23,7 +24,8 @@ struct RenderSettings {
   std::uint32_t seed = 0;
   int max_depth = 8;                   // bounces after the camera ray; 0 traces none
   float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced
-  int threads = 0;                     // 0 takes every core
+  std::vector<Aov> aovs; // which to record; with several samples this takes one ray more a pixel
+  int threads = 0;       // 0 takes every core
   // Both may be null. `cancelled` is read between tiles; `progress` gets the share of tiles done, 0..1, from
   // one thread at a time.
   const std::atomic<bool>* cancelled = nullptr;
@@ -41,8 +43,11 @@ struct Frame {
   int width = 0, height = 0;
   std::vector<float> rgb;
   std::vector<std::int32_t> primitive;
+  std::vector<AovPlane> aovs; // those that were asked for, each once
   RayCounts rays;
   bool complete = true; // false when the rendering was cancelled: tiles not done are black
+  // Null if it was not asked for.
+  const AovPlane* find(Aov aov) const noexcept;
 };
 
 // Renders with the tracer's kernels. The picture depends on the scene, the camera and the settings alone: not
@@ -58,6 +63,8 @@ struct FrameDifference {
   std::size_t pixels = 0;     // pixels with a channel that differs in its bits
   std::size_t primitives = 0; // pixels that see another primitive
   double largest = 0;         // the largest difference of a channel
+  std::size_t aovs = 0;       // pixels with an AOV that differs
+  bool equal() const noexcept { return pixels == 0 && primitives == 0 && aovs == 0; }
 };
 FrameDifference compare(const Frame& a, const Frame& b);
 

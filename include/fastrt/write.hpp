@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/render.hpp>
+
 #include <filesystem>
 #include <span>
 #include <string>
@@ -25,5 +27,17 @@ void write_image(const std::filesystem::path& path, std::span<const float> rgb, 
 // The same bytes without a file. format: one of image_extensions().
 std::vector<unsigned char> encode_image(const std::string& format, std::span<const float> rgb, int width,
                                         int height, int threads = 0);
+
+// The picture and its AOVs as one EXR of 32-bit channels: R G B, then "depth", "normal.X" and so on
+// (aov_info). Ids are unsigned integers counted from 1: 0 is the background.
+std::vector<unsigned char> encode_layers(const Frame& frame, int threads = 0);
+
+// One of the frame's AOVs as a picture, linear RGB, to be looked at or read back from 8 bits: ids are
+// red + 256 * green + 65536 * blue of its sRGB codes, counted from 1; normals are n / 2 + 1 / 2; depth is
+// bright where it is near; position, cost and depth-of-recursion are scaled to their own range.
+std::vector<float> aov_picture(const AovPlane& plane);
+
+// Every object in its signature_color(), the background black; linear RGB. `ids`: of Aov::id.
+std::vector<float> signature_picture(const AovPlane& ids);
 
 } // namespace fastrt

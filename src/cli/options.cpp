@@ -29,6 +29,9 @@ constexpr const char* examples =
     "  fastrt bunny.obj -o none --stats=json     measure\n"
     "\n"
     "Pictures: png ppm jpg tif (8 bits, sRGB) and exr hdr pfm (linear), by the name's extension.\n"
+    "AOVs: id primitive material depth normal position uv albedo shadow depth-of-recursion cost; as "
+    "channels\n"
+    "of an EXR picture, else one SCENE-NAME.png each.\n"
     "Exit codes: 0 done, 1 --verify found a difference, 2 usage, 3 bad scene or camera, 4 output,\n"
     "5 out of memory or over a limit, 128+n ended by signal n.";
 
@@ -48,6 +51,7 @@ std::string help_text(const CLI::App& app) {
   std::string text = app.help();
   replace_all(text, "\n\n\n", "\n\n");
   replace_all(text, "--stats{text} [=text|json]  ", "--stats[=text|json]         ");
+  replace_all(text, "--signature{/} [=FILE]  ", "--signature[=FILE]      ");
   replace_all(text, "\nUsage:", "\n\nUsage:");
   return text;
 }
@@ -88,13 +92,19 @@ private:
   std::string group_;
 };
 
-void add_image_options(OptionAdder& add, Options& options) {
+void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::string& signature) {
   add.group("Image");
   add.value("-o,--output", "FILE", "Where the picture goes [SCENE.png in this folder]; 'none': nowhere",
             [&](const std::string& name, const std::string& text) {
               if (text.empty()) throw UsageError(name + ": a file name is missing");
               options.output = text;
             });
+  add.value("--aov", "NAME,...", "More values a pixel: all, or some of those below",
+            [&](const std::string& name, const std::string& text) { options.aovs = parse_aovs(name, text); });
+  // A flag with a value: only what follows it after '=' is its.
+  app.add_flag("--signature{/}", signature, "A picture of the objects, each in a colour of its own")
+      ->option_text("[=FILE]")
+      ->group("Image");
   add.value("-r,--resolution", "WxH", "Size in pixels [1024x768]",
             [&](const std::string& name, const std::string& text) {
               const Resolution size = parse_resolution(name, text);
@@ -226,7 +236,8 @@ Options parse_options(int argc, const char* const* argv) {
       ->required();
   app.set_help_flag();
   OptionAdder add(app);
-  add_image_options(add, options);
+  std::string signature;
+  add_image_options(app, add, options, signature);
   add_sampling_options(add, options);
   add_view_options(add, options);
   add_light_options(app, add, options);
@@ -247,6 +258,7 @@ Options parse_options(int argc, const char* const* argv) {
     throw UsageError(std::string(error.what()));
   }
   options.stats = stats_format(stats);
+  if (!signature.empty()) options.signature = signature == "/" ? "" : signature;
   return options;
 }
 

@@ -19,6 +19,9 @@ struct Options {
   std::string scene;
   std::string output; // empty: the scene's stem and .png, here; "none": no file
 
+  std::vector<Aov> aovs;
+  std::optional<std::string> signature; // a file; empty: beside the picture
+
   int width = 1024, height = 768;
   std::int64_t max_image_mb = 1024;
   int samples_per_pixel = 1;

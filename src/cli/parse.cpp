@@ -3,10 +3,12 @@
 
 #include <fastrt/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <system_error>
 
 namespace fastrt::cli {
@@ -106,6 +108,26 @@ Light parse_light(std::string_view option, std::string_view text) {
     refuse(option, text, expected);
   }
   return light;
+}
+
+std::vector<Aov> parse_aovs(std::string_view option, std::string_view text) {
+  std::vector<Aov> aovs;
+  std::string known = "all";
+  for (std::size_t i = 0; i < aov_count; ++i) {
+    known += std::string(", ") + aov_info(static_cast<Aov>(i)).name;
+    if (text == "all") aovs.push_back(static_cast<Aov>(i));
+  }
+  if (text == "all") return aovs;
+  for (bool more = true; more;) {
+    const std::size_t comma = text.find(',');
+    more = comma != std::string_view::npos;
+    const std::string_view name = text.substr(0, comma);
+    const std::optional<Aov> aov = aov_named(name);
+    if (!aov) refuse(option, name, "one of " + known);
+    if (std::find(aovs.begin(), aovs.end(), *aov) == aovs.end()) aovs.push_back(*aov);
+    if (more) text.remove_prefix(comma + 1);
+  }
+  return aovs;
 }
 
 } // namespace fastrt::cli

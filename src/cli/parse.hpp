@@ -3,12 +3,14 @@
 // begins with the option's name.
 #pragma once
 
+#include <fastrt/aov.hpp>
 #include <fastrt/light.hpp>
 #include <fastrt/math.hpp>
 
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fastrt::cli {
 
@@ -34,5 +36,8 @@ Resolution parse_resolution(std::string_view option, std::string_view text);
 
 // "point:x,y,z[:r,g,b]" or "dir:x,y,z[:r,g,b]"; dir gives the way that the light travels.
 Light parse_light(std::string_view option, std::string_view text);
+
+// "id,depth,normal", or "all"; each kept once.
+std::vector<Aov> parse_aovs(std::string_view option, std::string_view text);
 
 } // namespace fastrt::cli

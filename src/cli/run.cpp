@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/run.hpp"
 
+#include "src/cli/extra_files.hpp"
 #include "src/cli/progress.hpp"
 #include "src/cli/report.hpp"
+#include "src/cli/save.hpp"
 #include "src/cli/signals.hpp"
 #include "src/cli/stats.hpp"
 #include "src/scene/threads.hpp"
-#include "src/write/output_file.hpp"
 
 #include <fastrt/fastrt.hpp>
 
@@ -52,9 +53,11 @@ int choose_threads(const Options& options) {
   return threads;
 }
 
-// Colour and primitive id of every pixel, twice if there are two renderings.
+// Colour, primitive id and AOVs of every pixel, twice if there are two renderings.
 void check_image_size(const Options& options) {
-  const std::uint64_t pixel_bytes = (3 * sizeof(float) + sizeof(std::int32_t)) * (options.verify ? 2 : 1);
+  std::uint64_t values = 4;
+  for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
+  const std::uint64_t pixel_bytes = values * sizeof(float) * (options.verify ? 2 : 1);
   const std::uint64_t bytes =
       static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height) * pixel_bytes;
   if (bytes > static_cast<std::uint64_t>(options.max_image_mb) << 20U) {
@@ -105,6 +108,7 @@ RenderSettings render_settings(const Options& options, int threads) {
   settings.seed = options.seed;
   settings.max_depth = options.max_depth;
   settings.min_contribution = options.min_contribution;
+  settings.aovs = aovs_to_render(options);
   settings.threads = threads;
   settings.cancelled = &cancelled();
   return settings;
@@ -144,6 +148,7 @@ void describe(const Options& options, const Tracer& tracer, const Frame& frame, 
   stats.width = frame.width;
   stats.height = frame.height;
   stats.samples_per_pixel = options.samples_per_pixel;
+  stats.aovs = frame.aovs.size();
   stats.isa = tracer.isa();
   stats.triangles = tracer.scene().triangle_count();
   stats.spheres = tracer.scene().sphere_count();
@@ -169,24 +174,6 @@ SceneDesc read_scene(const Options& options, int threads) {
   return desc;
 }
 
-// The format that the name asks for; a device without an extension gets PNG.
-std::string format_of(const fs::path& output) {
-  std::string extension = output.extension().string();
-  if (extension.empty()) return "png";
-  extension.erase(0, 1);
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
-// Encoding may take long, and a signal may end it; putting the bytes into their place is done to the end.
-void save(const fs::path& output, const Frame& frame, int threads) {
-  const std::vector<unsigned char> bytes =
-      encode_image(format_of(output), frame.rgb, frame.width, frame.height, threads);
-  enter_phase(Phase::saving);
-  replace_file(output, bytes.data(), bytes.size());
-}
-
 // Whether the picture goes where print_out() goes.
 bool is_standard_output(const fs::path& output) {
   struct stat picture {};
@@ -205,6 +192,7 @@ int run(const Options& options, Clock::time_point start) {
   tracer_settings.threads = stats.threads = choose_threads(options);
   check_image_size(options);
   const fs::path output = choose_output(options);
+  const ExtraFiles extra_files = choose_extra_files(options, output);
 
   Clock::time_point phase_start = Clock::now();
   SceneDesc desc = read_scene(options, stats.threads);
@@ -235,22 +223,25 @@ int run(const Options& options, Clock::time_point start) {
   }
   enter_phase(Phase::idle);
 
-  if (!output.empty()) {
-    phase_start = Clock::now();
-    save(output, frame, stats.threads);
+  phase_start = Clock::now();
+  save_extra_files(extra_files, frame, stats.threads);
+  if (!output.empty() && signal_received() == 0) {
+    save(output, extra_files.layers_in_picture
+                     ? encode_layers(frame, stats.threads)
+                     : encode_image(format_of(output), frame.rgb, frame.width, frame.height, stats.threads));
     stats.output = output.string();
-    stats.write_seconds = seconds_since(phase_start);
-    if (signal_received() != 0) {
-      print_error("interrupted after '" + stats.output + "' was written");
-      return 128 + signal_received();
-    }
-    enter_phase(Phase::idle);
+  }
+  stats.write_seconds = seconds_since(phase_start);
+  if (signal_received() != 0) {
+    print_error(stats.output.empty() ? std::string("interrupted; no picture is written")
+                                     : "interrupted after '" + stats.output + "' was written");
+    return 128 + signal_received();
   }
 
   stats.peak_rss_bytes = peak_rss_bytes();
   stats.total_seconds = seconds_since(start);
   report(options, stats, is_standard_output(output));
-  if (!stats.verify || (stats.verify->pixels == 0 && stats.verify->primitives == 0)) return exit_done;
+  if (!stats.verify || stats.verify->equal()) return exit_done;
   print_error("the kernels and the plain scalar code make different pictures");
   return exit_differs;
 }

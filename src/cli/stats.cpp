@@ -127,6 +127,7 @@ std::string verify_json(const FrameDifference& difference) {
   JsonObject object;
   object.add("pixels", std::uint64_t{difference.pixels});
   object.add("primitives", std::uint64_t{difference.primitives});
+  object.add("aovs", std::uint64_t{difference.aovs});
   object.add("largest", difference.largest);
   return object.text();
 }
@@ -203,6 +204,7 @@ std::string verify_text(const RunStats& stats) {
   std::snprintf(largest, sizeof largest, "%.9g", stats.verify->largest);
   return "verify: " + std::to_string(stats.verify->pixels) + all + "pixels differ\n" +
          "verify: " + std::to_string(stats.verify->primitives) + all + "primitive ids differ\n" +
+         (stats.aovs == 0 ? "" : "verify: " + std::to_string(stats.verify->aovs) + all + "AOVs differ\n") +
          "verify: the largest difference is " + largest + "\n";
 }
 

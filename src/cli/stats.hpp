@@ -15,6 +15,7 @@ namespace fastrt::cli {
 struct RunStats {
   std::string scene, output; // output: empty when no file was written
   int width = 0, height = 0, samples_per_pixel = 0, threads = 0;
+  std::size_t aovs = 0; // that were rendered
   Isa isa = Isa::scalar;
   std::size_t triangles = 0, spheres = 0, lights = 0;
   double read_seconds = 0, build_seconds = 0, render_seconds = 0, write_seconds = 0, total_seconds = 0;

@@ -19,13 +19,46 @@ void check(const RenderSettings& settings) {
                      std::to_string(settings.samples_per_pixel));
 }
 
-Frame black_frame(int width, int height) {
+namespace {
+
+AovPlane empty_plane(Aov aov, std::size_t pixels) {
+  const AovInfo& info = aov_info(aov);
+  const std::size_t count = pixels * static_cast<std::size_t>(info.channels);
+  AovPlane plane{aov, {}, {}};
+  if (info.integer)
+    plane.ids.assign(count, aov == Aov::recursion || aov == Aov::cost ? 0 : no_primitive);
+  else
+    plane.values.assign(count, aov == Aov::depth ? infinity : 0.0F);
+  return plane;
+}
+
+// Zeros are equal whatever their sign, as in docs/numerics.md.
+bool differs(float a, float b) { return a != b && !(std::isnan(a) && std::isnan(b)); }
+
+bool differs(const AovPlane& a, const AovPlane& b, std::size_t pixel) {
+  const auto channels = static_cast<std::size_t>(aov_info(a.aov).channels);
+  for (std::size_t i = channels * pixel; i < channels * (pixel + 1); ++i)
+    if (a.ids.empty() ? differs(a.values[i], b.values[i]) : a.ids[i] != b.ids[i]) return true;
+  return false;
+}
+
+} // namespace
+
+const AovPlane* Frame::find(Aov aov) const noexcept {
+  for (const AovPlane& plane : aovs)
+    if (plane.aov == aov) return &plane;
+  return nullptr;
+}
+
+Frame black_frame(int width, int height, const std::vector<Aov>& aovs) {
   Frame frame;
   frame.width = width;
   frame.height = height;
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   frame.rgb.assign(3 * pixels, 0.0F);
   frame.primitive.assign(pixels, no_primitive);
+  for (const Aov aov : aovs)
+    if (frame.find(aov) == nullptr) frame.aovs.push_back(empty_plane(aov, pixels));
   return frame;
 }
 
@@ -66,6 +99,12 @@ FrameDifference compare(const Frame& a, const Frame& b) {
       if (channel > difference.largest) difference.largest = channel;
     }
     if (a.primitive[pixel] != b.primitive[pixel]) ++difference.primitives;
+    for (const AovPlane& plane : a.aovs) {
+      const AovPlane* other = b.find(plane.aov);
+      if (other != nullptr && !differs(plane, *other, pixel)) continue;
+      ++difference.aovs;
+      break;
+    }
   }
   return difference;
 }

@@ -13,8 +13,8 @@ namespace fastrt {
 // Throws UsageError for settings out of their ranges.
 void check(const RenderSettings& settings);
 
-// A black frame that sees nothing.
-Frame black_frame(int width, int height);
+// A black frame that sees nothing, with the AOVs that are asked for.
+Frame black_frame(int width, int height, const std::vector<Aov>& aovs = {});
 
 // How far a frame is, shared by the threads that make it in `parts` parts (rows or tiles).
 class FrameProgress {

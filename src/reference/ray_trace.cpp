@@ -45,7 +45,7 @@ Node child_of(const Node& parent, const Surface& surface, const Vec3& weight, co
 // The lecture recurses. A stack gives the same order - the hit, all that its mirror shows, all that shines
 // through - and has no limit but memory: what is to be traced first is pushed last.
 Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, const RenderSettings& settings,
-               RayCounts& rays, Hit& first_hit) {
+               RayCounts& rays, Sight& sight) {
   const auto worth_tracing = [&](const Vec3& weight) {
     return largest(weight) > 0.0F && largest(weight) >= settings.min_contribution;
   };
@@ -57,7 +57,8 @@ Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, cons
     const Node node = stack.back();
     stack.pop_back();
     const Hit hit = finder.closest(node.ray);
-    if (node.depth == 0) first_hit = hit;
+    if (node.depth == 0) sight.hit = hit;
+    if (node.depth > sight.deepest) sight.deepest = node.depth;
     if (!hit.found()) {
       sum = sum + node.weight * scene.desc().background;
       continue;
@@ -65,7 +66,12 @@ Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, cons
 
     const Surface surface = surface_at(scene, node.ray, hit);
     const Vec3 weight = faded(node.weight, scene.materials(), node.media, surface.distance);
-    sum = sum + weight * shade(scene, finder, surface, rays);
+    Vec3 light_left{0.0F};
+    sum = sum + weight * shade(scene, finder, surface, rays, light_left);
+    if (node.depth == 0) {
+      sight.surface = surface;
+      sight.light_left = light_left;
+    }
 
     if (node.depth >= settings.max_depth || scene.materials()[surface.material].unlit) continue;
     const Secondary next = secondary_rays(scene, surface, node.media);

@@ -11,11 +11,6 @@ namespace fastrt {
 namespace reference {
 namespace {
 
-struct Pixel {
-  Vec3 color{0.0F};
-  Hit first_hit; // of its first sample
-};
-
 struct Job {
   const Scene* scene;
   const HitFinder* finder;
@@ -30,44 +25,52 @@ Ray camera_ray(const CameraFrame& camera, float px, float py) {
   return ray;
 }
 
-Pixel render_pixel(const Job& job, int x, int y, RayCounts& rays) {
+// The ray through the pixel's centre: its colour; its AOVs go into the frame.
+Vec3 trace_center(const Job& job, int x, int y, RayCounts& rays, Sight& sight) {
+  ++rays.primary;
+  const Ray ray = camera_ray(job.camera, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+  return ray_trace(*job.scene, *job.finder, ray, *job.settings, rays, sight);
+}
+
+Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sight& sight) {
   const RenderSettings& settings = *job.settings;
-  const int count = settings.samples_per_pixel;
-  const float center_x = static_cast<float>(x) + 0.5F;
-  const float center_y = static_cast<float>(y) + 0.5F;
-  Pixel pixel;
-  for (int sample = 0; sample < count; ++sample) {
-    float px = center_x;
-    float py = center_y;
-    if (count > 1) {
-      const SampleOffset offset = sample_offset(
-          static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(sample),
-          static_cast<std::uint32_t>(count), settings.seed, settings.filter == PixelFilter::tent);
-      px = center_x + offset.x;
-      py = center_y + offset.y;
-    }
-    ++rays.primary;
-    Hit hit;
-    const Vec3 color =
-        ray_trace(*job.scene, *job.finder, camera_ray(job.camera, px, py), settings, rays, hit);
-    pixel.color = count == 1 ? color : pixel.color + color;
-    if (sample == 0) pixel.first_hit = hit;
+  const SampleOffset offset = sample_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                            static_cast<std::uint32_t>(sample),
+                                            static_cast<std::uint32_t>(settings.samples_per_pixel),
+                                            settings.seed, settings.filter == PixelFilter::tent);
+  ++rays.primary;
+  const Ray ray = camera_ray(job.camera, (static_cast<float>(x) + 0.5F) + offset.x,
+                             (static_cast<float>(y) + 0.5F) + offset.y);
+  return ray_trace(*job.scene, *job.finder, ray, settings, rays, sight);
+}
+
+void render_pixel(const Job& job, int x, int y, RayCounts& rays, Frame& frame) {
+  const std::size_t pixel =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
+  const int count = job.settings->samples_per_pixel;
+  Vec3 color{0.0F};
+  Sight sight;
+  if (count == 1 || !frame.aovs.empty()) {
+    const std::uint64_t rays_before = rays.total();
+    color = trace_center(job, x, y, rays, sight);
+    record_aovs(*job.scene, sight, rays.total() - rays_before, pixel, frame);
   }
-  if (count > 1) pixel.color = pixel.color * (1.0F / static_cast<float>(count));
-  return pixel;
+  if (count > 1) {
+    color = Vec3(0.0F);
+    for (int sample = 0; sample < count; ++sample) {
+      Sight seen;
+      color = color + trace_sample(job, x, y, sample, rays, seen);
+      if (sample == 0) sight = seen;
+    }
+    color = color * (1.0F / static_cast<float>(count));
+  }
+  frame.primitive[pixel] = sight.hit.primitive;
+  for (int c = 0; c < 3; ++c) frame.rgb[3 * pixel + static_cast<std::size_t>(c)] = color[c];
 }
 
 RayCounts render_row(const Job& job, int y, Frame& frame) {
   RayCounts rays;
-  for (int x = 0; x < frame.width; ++x) {
-    const Pixel pixel = render_pixel(job, x, y, rays);
-    const std::size_t i =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
-    frame.rgb[3 * i] = pixel.color.x;
-    frame.rgb[3 * i + 1] = pixel.color.y;
-    frame.rgb[3 * i + 2] = pixel.color.z;
-    frame.primitive[i] = pixel.first_hit.primitive;
-  }
+  for (int x = 0; x < frame.width; ++x) render_pixel(job, x, y, rays, frame);
   return rays;
 }
 
@@ -77,7 +80,7 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
              const RenderSettings& settings) {
   check(settings);
   const Job job{&scene, &finder, &settings, make_camera_frame(camera, settings.width, settings.height)};
-  Frame frame = black_frame(settings.width, settings.height);
+  Frame frame = black_frame(settings.width, settings.height, settings.aovs);
   FrameProgress progress(settings, settings.height);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count(settings.threads))
   for (int y = 0; y < settings.height; ++y) {

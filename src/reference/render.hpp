@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/reference/hit_finder.hpp"
+#include "src/reference/surface.hpp"
 
 #include <fastrt/camera.hpp>
 #include <fastrt/render.hpp>
@@ -13,9 +14,20 @@ namespace fastrt::reference {
 Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
              const RenderSettings& settings);
 
-// What one ray from the camera brings back: the lecture's rayTrace. Adds the rays below it to `rays`; gives
-// the hit of the ray itself in `first_hit`.
+// What AOVs tell of a ray from the camera.
+struct Sight {
+  Hit hit;
+  Surface surface;       // if something was hit
+  Vec3 light_left{0.0F}; // of the lights that cast shadows, summed up over them
+  int deepest = 0;       // bounces of the longest path below the ray
+};
+
+// What one ray from the camera brings back: the lecture's rayTrace. Adds the rays below it to `rays`.
 Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, const RenderSettings& settings,
-               RayCounts& rays, Hit& first_hit);
+               RayCounts& rays, Sight& sight);
+
+// The AOVs that the frame holds, at one pixel. ray_count: traced for it.
+void record_aovs(const Scene& scene, const Sight& sight, std::uint64_t ray_count, std::size_t pixel,
+                 Frame& frame);
 
 } // namespace fastrt::reference

@@ -45,7 +45,7 @@ Ray shadow_ray(const Light& light, const Surface& surface, const Vec3& to_light)
 }
 
 // What is left of the light along a shadow ray: starts as 1, and every surface on the way takes its part.
-Vec3 light_left(const Scene& scene, const HitFinder& finder, Ray ray) {
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
   if (!scene.has_transmission()) return finder.any(ray) ? Vec3(0.0F) : Vec3(1.0F);
   Vec3 left{1.0F};
   for (Hit hit = finder.closest(ray); hit.found(); hit = finder.closest(ray)) {
@@ -61,7 +61,8 @@ Vec3 light_left(const Scene& scene, const HitFinder& finder, Ray ray) {
 
 } // namespace
 
-Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays) {
+Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays,
+           Vec3& light_left) {
   const Material& material = scene.materials()[surface.material];
   if (material.unlit) return material.emission + material.diffuse;
 
@@ -75,7 +76,8 @@ Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, 
     Vec3 shadow{1.0F};
     if (light.casts_shadows) {
       ++rays.shadow;
-      shadow = light_left(scene, finder, shadow_ray(light, surface, to_light));
+      shadow = let_through(scene, finder, shadow_ray(light, surface, to_light));
+      light_left = light_left + shadow;
     }
     lit = lit + (phong_model(material, surface, to_light, cos_n) * light.intensity) * shadow;
   }

@@ -25,7 +25,8 @@ inline bool is_transmissive(const Vec3& transmittance) {
 Vec3 phong_model(const Material& material, const Surface& surface, const Vec3& to_light, float cos_n);
 
 // The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.
-// Each shadow that is asked for adds one to rays.shadow.
-Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays);
+// Each shadow that is asked for adds one to rays.shadow, and what it leaves of the light to light_left.
+Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays,
+           Vec3& light_left);
 
 } // namespace fastrt::reference

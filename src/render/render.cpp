@@ -23,6 +23,22 @@ void copy(const Vec3& from, float (&to)[3]) {
   to[2] = from.z;
 }
 
+AovTargets targets_of(Frame& frame) {
+  AovTargets to{};
+  std::int32_t** const ids[] = {&to.object, &to.primitive, &to.material, &to.recursion, &to.cost};
+  constexpr Aov ids_of[] = {Aov::id, Aov::primitive, Aov::material, Aov::recursion, Aov::cost};
+  float** const values[] = {&to.depth, &to.normal, &to.position, &to.uv, &to.albedo, &to.shadow};
+  constexpr Aov values_of[] = {Aov::depth, Aov::normal, Aov::position, Aov::uv, Aov::albedo, Aov::shadow};
+  for (AovPlane& plane : frame.aovs) {
+    for (std::size_t i = 0; i < std::size(ids); ++i)
+      if (plane.aov == ids_of[i]) *ids[i] = plane.ids.data();
+    for (std::size_t i = 0; i < std::size(values); ++i)
+      if (plane.aov == values_of[i]) *values[i] = plane.values.data();
+  }
+  to.any = !frame.aovs.empty();
+  return to;
+}
+
 TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const RenderSettings& settings,
                  Frame& frame) {
   TileJob job{};
@@ -40,6 +56,7 @@ TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const Re
   job.min_contribution = settings.min_contribution;
   job.rgb = frame.rgb.data();
   job.primitive = frame.primitive.data();
+  job.aovs = targets_of(frame);
   return job;
 }
 
@@ -49,6 +66,7 @@ class TileMemory {
 public:
   explicit TileMemory(int max_depth)
       : scratch_(std::make_unique<TileScratch>()), batches_(static_cast<std::size_t>(max_depth) + 3) {
+    scratch_->recording = false;
     scratch_->waiting_count = 0;
     scratch_->unused_count = 0;
     for (PathBatch& batch : batches_) scratch_->unused[scratch_->unused_count++] = &batch;
@@ -87,7 +105,7 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
   if (parts.scalar_bvh) return reference::render(parts.scene, *parts.scalar_bvh, camera, settings);
   check(settings);
   const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
-  Frame frame = black_frame(settings.width, settings.height);
+  Frame frame = black_frame(settings.width, settings.height, settings.aovs);
   const TileJob job = make_job(parts, camera_frame, settings, frame);
   const int columns = (settings.width + tile_side - 1) / tile_side;
   const int rows = (settings.height + tile_side - 1) / tile_side;

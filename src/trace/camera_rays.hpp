@@ -9,14 +9,14 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Where sample `index` of the tile's pixels lies on the image.
+// Where sample `index` of the tile's pixels lies on the image; -1: their centres.
 FASTRT_INLINE void place_samples(const TileJob& job, int index, float* px, float* py) {
   for (int i = 0; i < batch_size; ++i) {
     const int x = job.x + tile_pixel_x(i);
     const int y = job.y + tile_pixel_y(i);
     px[i] = static_cast<float>(x) + 0.5F;
     py[i] = static_cast<float>(y) + 0.5F;
-    if (job.samples == 1) continue;
+    if (index < 0) continue;
     const SampleOffset offset = sample_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                                               static_cast<std::uint32_t>(index),
                                               static_cast<std::uint32_t>(job.samples), job.seed, job.tent);

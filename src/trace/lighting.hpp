@@ -175,6 +175,20 @@ FASTRT_INLINE void add_light(const ShadingView& scene, const LightRow& light, co
   store3(lit, s.local_r + i, s.local_g + i, s.local_b + i);
 }
 
+// A light's shadow rays: one more ray for each lit pixel, and what the light shows of its first surface.
+static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, const LightBatch& seen,
+                           AovScratch& aov) noexcept {
+  for (int i = 0; i < rays.count; ++i) {
+    if (((lit[i / widest] >> (i % widest)) & 1U) == 0) continue;
+    const int pixel = rays.pixel[i];
+    ++aov.rays[pixel];
+    if (rays.depth != 0) continue;
+    aov.lit_r[pixel] = aov.lit_r[pixel] + seen.visible_r[i];
+    aov.lit_g[pixel] = aov.lit_g[pixel] + seen.visible_g[i];
+    aov.lit_b[pixel] = aov.lit_b[pixel] + seen.visible_b[i];
+  }
+}
+
 // Gathers what every light gives to the surfaces of the batch. Returns the number of shadow rays.
 static std::uint64_t gather_light(const SceneView& scene, const PathBatch& rays,
                                   TileScratch& scratch) noexcept {
@@ -205,6 +219,7 @@ static std::uint64_t gather_light(const SceneView& scene, const PathBatch& rays,
       for (int i = 0; i < rays.count; i += widest)
         store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, seen);
     }
+    if (scratch.recording && light.casts_shadows != 0) record_shadows(rays, lit, seen, scratch.aov);
     for (int i = 0; i < rays.count; i += widest)
       if (lit[i / widest] != 0) add_light(scene.shading, light, seen, lit[i / widest], i, s);
   }

@@ -59,8 +59,11 @@ struct ShadingView {
   const float *normal_x, *normal_y, *normal_z;
   const std::uint32_t *v0, *v1, *v2;
   const std::uint32_t *n0, *n1, *n2;
+  const float *uv_x, *uv_y;          // null when no triangle has texture coordinates
+  const std::uint32_t *t0, *t1, *t2; // likewise
   const float *sphere_x, *sphere_y, *sphere_z, *sphere_radius;
   const std::uint32_t *triangle_material, *sphere_material;
+  const std::uint32_t *triangle_object, *sphere_object;
   const MaterialRow* materials;
   const LightRow* lights;
   std::uint32_t triangle_count, sphere_count, light_count;

@@ -41,6 +41,20 @@ struct alignas(64) LightBatch {
   float visible_r[batch_size], visible_g[batch_size], visible_b[batch_size]; // S
 };
 
+// What AOVs need to know of a tile's camera rays and of all that follows from them; by place in the tile.
+struct AovScratch {
+  float u[batch_size], v[batch_size];                            // of the hits
+  float lit_r[batch_size], lit_g[batch_size], lit_b[batch_size]; // sum of S over the lights with shadows
+  std::int32_t rays[batch_size], deepest[batch_size];
+};
+
+// Where a frame keeps its AOVs; null for those that are not asked for.
+struct AovTargets {
+  std::int32_t *object, *primitive, *material, *recursion, *cost;
+  float *depth, *normal, *position, *uv, *albedo, *shadow;
+  bool any; // whether any is asked for
+};
+
 struct TileScratch {
   HitBatch hits, shadow_hits;
   SurfaceBatch surface;
@@ -49,6 +63,8 @@ struct TileScratch {
   float radiance_r[batch_size], radiance_g[batch_size], radiance_b[batch_size]; // of one sample
   float sum_r[batch_size], sum_g[batch_size], sum_b[batch_size];
   std::int32_t first_primitive[batch_size];
+  bool recording; // AOVs, while the rays of the pixels' centres are traced
+  AovScratch aov;
   // The explicit stack: batches waiting, the next on top, and those not in use.
   PathBatch* waiting[max_path_depth + 4];
   PathBatch* unused[max_path_depth + 4];
@@ -67,6 +83,7 @@ struct TileJob {
   float min_contribution;
   float* rgb;              // of the frame
   std::int32_t* primitive; // of the frame
+  AovTargets aovs;
 };
 
 struct TileRayCounts {

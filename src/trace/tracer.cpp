@@ -53,12 +53,21 @@ void fill_columns(const Scene& scene, ShadingView& view) {
     view.n1 = desc.triangles.n1.data();
     view.n2 = desc.triangles.n2.data();
   }
+  if (!desc.triangles.t0.empty()) {
+    view.uv_x = desc.uvs.x.data();
+    view.uv_y = desc.uvs.y.data();
+    view.t0 = desc.triangles.t0.data();
+    view.t1 = desc.triangles.t1.data();
+    view.t2 = desc.triangles.t2.data();
+  }
   view.sphere_x = desc.spheres.x.data();
   view.sphere_y = desc.spheres.y.data();
   view.sphere_z = desc.spheres.z.data();
   view.sphere_radius = desc.spheres.radius.data();
   view.triangle_material = desc.triangles.material.data();
   view.sphere_material = desc.spheres.material.data();
+  view.triangle_object = desc.triangles.object.data();
+  view.sphere_object = desc.spheres.object.data();
   view.triangle_count = scene.triangle_count();
   view.sphere_count = scene.sphere_count();
 }

@@ -5,6 +5,7 @@
 // order.
 #pragma once
 
+#include "src/trace/aov.hpp"
 #include "src/trace/camera_rays.hpp"
 #include "src/trace/secondary.hpp"
 
@@ -105,6 +106,7 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   find_closest_hits(scene.geometry, rays, scratch.hits);
   see_surfaces(scene, rays, scratch);
   counts.shadow += gather_light(scene, rays, scratch);
+  if (scratch.recording) record_batch(job, rays, scratch);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);
     if (bits == 0) continue;
@@ -155,28 +157,42 @@ FASTRT_INLINE void write_tile(const TileJob& job, const TileScratch& scratch) {
   }
 }
 
-static void render_tile(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
-  clear(scratch.sum_r, scratch.sum_g, scratch.sum_b);
-  for (int sample = 0; sample < job.samples; ++sample) {
-    clear(scratch.radiance_r, scratch.radiance_g, scratch.radiance_b);
-    PathBatch& camera_rays = take_batch(scratch, 0);
-    make_camera_rays(job, sample, camera_rays);
-    push(scratch, camera_rays);
-    bool first = sample == 0;
-    while (scratch.waiting_count != 0) {
-      PathBatch& batch = *scratch.waiting[--scratch.waiting_count];
-      trace_paths(job, batch, scratch, counts);
-      if (first)
-        __builtin_memcpy(scratch.first_primitive, scratch.hits.primitive, sizeof scratch.first_primitive);
-      first = false;
-      give_back(scratch, batch);
-    }
-    if (job.samples > 1) add_sample(scratch);
+// One sample of every pixel into `radiance`, or with index -1 the pixels' centres.
+static void trace_sample(const TileJob& job, int index, TileScratch& scratch,
+                         TileRayCounts& counts) noexcept {
+  clear(scratch.radiance_r, scratch.radiance_g, scratch.radiance_b);
+  PathBatch& camera_rays = take_batch(scratch, 0);
+  make_camera_rays(job, index, camera_rays);
+  push(scratch, camera_rays);
+  bool first = index <= 0;
+  while (scratch.waiting_count != 0) {
+    PathBatch& batch = *scratch.waiting[--scratch.waiting_count];
+    trace_paths(job, batch, scratch, counts);
+    if (first)
+      __builtin_memcpy(scratch.first_primitive, scratch.hits.primitive, sizeof scratch.first_primitive);
+    first = false;
+    give_back(scratch, batch);
   }
   const int columns = job.width - job.x < tile_side ? job.width - job.x : tile_side;
   const int rows = job.height - job.y < tile_side ? job.height - job.y : tile_side;
-  counts.primary += static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) *
-                    static_cast<std::uint64_t>(job.samples);
+  counts.primary += static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
+}
+
+static void render_tile(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
+  if (job.aovs.any) {
+    begin_recording(scratch);
+    trace_sample(job, -1, scratch, counts);
+    end_recording(job, scratch);
+  }
+  if (job.samples == 1) {
+    if (!job.aovs.any) trace_sample(job, -1, scratch, counts);
+  } else {
+    clear(scratch.sum_r, scratch.sum_g, scratch.sum_b);
+    for (int sample = 0; sample < job.samples; ++sample) {
+      trace_sample(job, sample, scratch, counts);
+      add_sample(scratch);
+    }
+  }
   write_tile(job, scratch);
 }
 

@@ -2,6 +2,7 @@
 // The encoders behind encode_image. Each takes 3 * width * height linear values and returns the whole file.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,17 @@ Bytes encode_png(const Picture& picture);
 Bytes encode_ppm(const Picture& picture);
 Bytes encode_pfm(const Picture& picture);
 Bytes encode_tiff(const Picture& picture);
+// Columns of 32 bits under names of their own, of one size; floats or unsigned integers.
+struct Channels {
+  std::vector<std::string> names;
+  std::vector<unsigned char> is_integer;
+  std::vector<std::uint32_t> values; // names.size() values a pixel, floats by their bits
+  int width, height;
+  int threads;
+};
+
 // exr, hdr, jpg and jpeg, by the module that holds OpenImageIO.
 Bytes encode_with_module(const std::string& format, const Picture& picture);
+Bytes encode_exr(const Channels& channels);
 
 } // namespace fastrt

@@ -79,25 +79,52 @@ void check_limits(const std::string& format, const Picture& picture) {
     throw OutputError("a JPEG picture has at most 65500 pixels on a side");
 }
 
+Bytes encode(const OiioPicture& request) {
+  static OiioEncode* const encode_picture = load_module();
+  OiioResult result{};
+  const bool done = encode_picture(&request, &result) != 0;
+  const std::unique_ptr<unsigned char, Free> bytes(result.bytes);
+  if (!done)
+    throw OutputError(std::string("cannot encode the picture as ") + request.format + ": " +
+                      printable(result.error));
+  return {bytes.get(), bytes.get() + result.count};
+}
+
 } // namespace
 
 Bytes encode_with_module(const std::string& format, const Picture& picture) {
   check_limits(format, picture);
-  static OiioEncode* const encode = load_module();
   const bool is_float = format == "exr" || format == "hdr";
   Bytes codes;
   if (!is_float) {
     codes.resize(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     to_srgb8(picture.rgb, codes.size(), codes.data());
   }
-  const OiioPicture request{format.c_str(),   is_float ? static_cast<const void*>(picture.rgb) : codes.data(),
-                            is_float ? 1 : 0, picture.width,
-                            picture.height,   thread_count(picture.threads)};
-  OiioResult result{};
-  const bool done = encode(&request, &result) != 0;
-  const std::unique_ptr<unsigned char, Free> bytes(result.bytes);
-  if (!done) throw OutputError("cannot encode the picture as " + format + ": " + printable(result.error));
-  return {bytes.get(), bytes.get() + result.count};
+  OiioPicture request{};
+  request.format = format.c_str();
+  request.pixels = is_float ? static_cast<const void*>(picture.rgb) : codes.data();
+  request.is_float = is_float ? 1 : 0;
+  request.width = picture.width;
+  request.height = picture.height;
+  request.threads = thread_count(picture.threads);
+  request.channels = 3;
+  return encode(request);
+}
+
+Bytes encode_exr(const Channels& channels) {
+  std::vector<const char*> names;
+  for (const std::string& name : channels.names) names.push_back(name.c_str());
+  OiioPicture request{};
+  request.format = "exr";
+  request.pixels = channels.values.data();
+  request.is_float = 1;
+  request.width = channels.width;
+  request.height = channels.height;
+  request.threads = thread_count(channels.threads);
+  request.channels = static_cast<int>(names.size());
+  request.channel_names = names.data();
+  request.is_integer = channels.is_integer.data();
+  return encode(request);
 }
 
 } // namespace fastrt

@@ -138,4 +138,36 @@ progress_on_a_terminal_only() {
   ! grep -q 'rendering .* %' out || fail "progress in spite of --no-progress"
 }
 
+aovs() {
+  expect 0 "$scenes/spheres.obj" "${small[@]}" -o deep.png --aov normal,depth-of-recursion,id --verify
+  grep -q '^verify: 0 of 1536 AOVs differ$' out || fail "AOVs are not verified"
+  local name
+  for name in normal depth-of-recursion id; do
+    [ "$(magic deep-$name.png)" = 89504e47 ] || fail "no deep-$name.png"
+  done
+  [ "$(find . -name 'deep*' | wc -l)" -eq 4 ] || fail "other files too"
+  # Channels of one file.
+  expect 0 "$scenes/spheres.obj" "${small[@]}" -o layers.exr --aov normal,depth,id
+  [ "$(find . -name 'layers*' | wc -l)" -eq 1 ] || fail "more than one file"
+  for name in normal.X normal.Z depth id R; do
+    grep -qaF "$name" layers.exr || fail "no channel $name"
+  done
+  expect 0 "$scenes/spheres.obj" "${small[@]}" -o none --aov all --verify
+  expect_error 2 'colour' tiny.obj --aov colour
+  expect_error 2 '/dev/stdout' tiny.obj -o /dev/stdout --aov id
+  mkdir a-id.png
+  expect_error 4 'a-id.png' tiny.obj -o a.png --aov id
+}
+
+signature() {
+  expect 0 "$scenes/spheres.obj" "${small[@]}" --signature
+  [ "$(magic spheres-signature.png)" = 89504e47 ] || fail "no spheres-signature.png"
+  expect 0 "$scenes/spheres.obj" "${small[@]}" -s 3 --seed 5 -o none --signature=b.ppm -t 1
+  expect 0 "$scenes/spheres.obj" "${small[@]}" -o none --signature=c.ppm --isa scalar
+  cmp b.ppm c.ppm
+  expect_error 2 'the scene' tiny.obj -o a.png --signature=tiny.obj
+  expect_error 2 'nonsense' tiny.obj -o a.png --signature=nonsense
+  expect_error 4 'missing' tiny.obj -o a.png --signature=missing/a.png
+}
+
 run_case

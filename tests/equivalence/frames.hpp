@@ -52,6 +52,7 @@ inline void expect_equal(const Frame& found, const Frame& expected, const std::s
   const FrameDifference difference = compare(found, expected);
   EXPECT_EQ(difference.pixels, 0U) << what << ": largest difference " << difference.largest;
   EXPECT_EQ(difference.primitives, 0U) << what;
+  EXPECT_EQ(difference.aovs, 0U) << what;
   EXPECT_EQ(found.rays.primary, expected.rays.primary) << what;
   EXPECT_EQ(found.rays.shadow, expected.rays.shadow) << what;
   EXPECT_EQ(found.rays.reflected, expected.rays.reflected) << what;

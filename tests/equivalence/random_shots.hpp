@@ -98,6 +98,8 @@ inline Shot any_shot(std::uint32_t seed) {
   shot.settings.seed = random.word();
   shot.settings.max_depth = static_cast<int>(random.below(6));
   shot.settings.min_contribution = random.below(3) == 0 ? 0.0F : random.uniform(0, 0.1F);
+  if (seed % 2 == 0)
+    for (std::size_t i = 0; i < aov_count; ++i) shot.settings.aovs.push_back(static_cast<Aov>(i));
   return shot;
 }
 

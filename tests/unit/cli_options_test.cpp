@@ -100,6 +100,19 @@ TEST(CliOptions, StatsTakesItsValueOnlyAfterEquals) {
   EXPECT_THROW(parse({"--stats=xml", "a.obj"}), UsageError);
 }
 
+TEST(CliOptions, SignatureTakesItsValueOnlyAfterEquals) {
+  EXPECT_FALSE(parse({"a.obj"}).signature.has_value());
+  EXPECT_EQ(parse({"--signature", "a.obj"}).signature, "");
+  EXPECT_EQ(parse({"--signature=b.png", "a.obj"}).signature, "b.png");
+}
+
+TEST(CliOptions, AovsAreNamesOrAll) {
+  EXPECT_TRUE(parse({"a.obj"}).aovs.empty());
+  EXPECT_EQ(parse({"--aov", "uv,depth-of-recursion,uv", "a.obj"}).aovs,
+            (std::vector<Aov>{Aov::uv, Aov::recursion}));
+  EXPECT_EQ(parse({"--aov=all", "a.obj"}).aovs.size(), aov_count);
+}
+
 TEST(CliOptions, LightsAddUpAndDoNotSwallowTheScene) {
   const Options options = parse({"--light", "point:1,2,3", "--light", "dir:0,-1,0", "a.obj"});
   ASSERT_EQ(options.lights.size(), 2U);
@@ -150,6 +163,9 @@ TEST(CliOptions, UsageErrors) {
       {"a.obj", "--light", "lamp"},
       {"a.obj", "--max-image-mb", "0"},
       {"a.obj", "--verify=perhaps"},
+      {"a.obj", "--aov", "colour"},
+      {"a.obj", "--aov", "id,,depth"},
+      {"a.obj", "--aov", ""},
   };
   for (const auto& words : bad) {
     EXPECT_THROW(parse(words), UsageError) << (words.empty() ? "" : words.back());

@@ -72,6 +72,9 @@ TEST(CliReport, VerifyHasThreeLines) {
                                 "verify: 1 of 786432 primitive ids differ\n"
                                 "verify: the largest difference is 0.25\n");
   EXPECT_NE(stats_json(stats).find("\"pixels\": 3"), std::string::npos);
+  stats.aovs = 2;
+  stats.verify->aovs = 9;
+  EXPECT_NE(verify_text(stats).find("verify: 9 of 786432 AOVs differ\n"), std::string::npos);
 }
 
 TEST(CliReport, ProgressTellsShareAndTimeLeft) {

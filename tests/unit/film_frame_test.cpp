@@ -108,6 +108,21 @@ TEST(CompareFrames, CountsPixelsNotChannels) {
   EXPECT_EQ(difference.largest, 0.5);
 }
 
+TEST(CompareFrames, CountsPixelsWithOtherAovs) {
+  const Frame a = black_frame(3, 1, {Aov::normal, Aov::id, Aov::normal});
+  ASSERT_EQ(a.aovs.size(), 2U); // each once
+  Frame b = a;
+  b.aovs[0].values[0] = 1;
+  b.aovs[0].values[1] = 1;
+  b.aovs[0].values[3] = -0.0F; // equal
+  b.aovs[1].ids[0] = 5;
+  b.aovs[1].ids[2] = 7;
+  EXPECT_EQ(compare(a, b).aovs, 2U);
+  EXPECT_FALSE(compare(a, b).equal());
+  EXPECT_TRUE(compare(a, a).equal());
+  EXPECT_EQ(compare(a, black_frame(3, 1)).aovs, 3U);
+}
+
 TEST(CompareFrames, TheSignOfZeroIsADifference) {
   const Frame a = black_frame(1, 1);
   Frame b = a;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 // Returns the number of values of the picture in `file`, 0 if it can't be read; fills at most `capacity` of
 // them. Bytes come as value / 255.
@@ -18,4 +19,17 @@ extern "C" std::size_t read_picture(const char* file, float* values, std::size_t
   const std::size_t count = spec.image_pixels() * static_cast<std::size_t>(spec.nchannels);
   if (count > capacity) return count;
   return input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values) ? count : 0;
+}
+
+// The bits of one channel of 32 bits, `count` pixels; 0 if the file has none of this name, type and size.
+extern "C" int read_channel(const char* file, const char* name, int integer, std::uint32_t* bits,
+                            std::size_t count) {
+  const auto input = OIIO::ImageInput::open(file);
+  if (!input) return 0;
+  const OIIO::ImageSpec& spec = input->spec();
+  const int channel = spec.channelindex(name);
+  if (channel < 0 || spec.image_pixels() != count) return 0;
+  const OIIO::TypeDesc type = integer != 0 ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT;
+  if (spec.channelformat(channel) != type) return 0;
+  return input->read_image(0, 0, channel, channel + 1, type, bits) ? 1 : 0;
 }

@@ -27,8 +27,13 @@ int fail(OiioResult& result, const std::string& why) {
 
 OIIO::ImageSpec spec_of(const OiioPicture& picture) {
   const std::string format = picture.format;
-  OIIO::ImageSpec spec(picture.width, picture.height, 3,
+  OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
                        picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  for (int c = 0; picture.channel_names != nullptr && c < picture.channels; ++c) {
+    spec.channelnames[static_cast<std::size_t>(c)] = picture.channel_names[c];
+    spec.channelformats.push_back(picture.is_integer[c] != 0 ? OIIO::TypeDesc::UINT32
+                                                             : OIIO::TypeDesc::FLOAT);
+  }
   spec.attribute("Software", "fastrt");
   spec.attribute("oiio:ColorSpace", picture.is_float != 0 ? "Linear" : "sRGB");
   if (format == "jpg" || format == "jpeg") {
@@ -53,7 +58,9 @@ int encode(const OiioPicture& picture, OiioResult& result) {
   OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(name, spec_of(picture)))
     return fail(result, output->geterror());
-  const OIIO::TypeDesc type = picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+  const OIIO::TypeDesc type = picture.channel_names != nullptr ? OIIO::TypeDesc::UNKNOWN // as they are
+                              : picture.is_float != 0          ? OIIO::TypeDesc::FLOAT
+                                                               : OIIO::TypeDesc::UINT8;
   // close() can succeed after a failed write_image.
   if (!output->write_image(type, picture.pixels)) return fail(result, output->geterror());
   if (!output->close() || output->has_error()) return fail(result, output->geterror());
@@ -70,7 +77,7 @@ int encode(const OiioPicture& picture, OiioResult& result) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_1(const OiioPicture* picture,
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_2(const OiioPicture* picture,
                                                                            OiioResult* result) {
   try {
     return encode(*picture, *result);

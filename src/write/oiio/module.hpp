@@ -8,14 +8,19 @@
 namespace fastrt {
 
 inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
-inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_1"; // the number changes with the types
+inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_2"; // the number changes with the types
 
 struct OiioPicture {
   const char* format; // an extension without the dot
-  const void* pixels; // 3 * width * height values, rows from the top
-  int is_float;       // floats, otherwise bytes
+  const void* pixels; // `channels` * width * height values, rows from the top
+  int is_float;       // values of four bytes, otherwise bytes
   int width, height;
   int threads;
+  int channels;
+  // Of channels that are more than red, green and blue (else null): their names, and which hold unsigned
+  // integers and no floats.
+  const char* const* channel_names;
+  const unsigned char* is_integer;
 };
 
 struct OiioResult {

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// AOVs in files, and the colours of the scene signature.
+#include "src/film/frame.hpp"
+#include "src/write/srgb.hpp"
+
+#include <fastrt/write.hpp>
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace fastrt {
+namespace {
+
+namespace fs = std::filesystem;
+
+int difference(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b) {
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+}
+
+TEST(SignatureColor, TheFirstAreFarApart) {
+  for (std::uint32_t i = 0; i < 448; ++i) {
+    EXPECT_GE(difference(signature_color(i), {0, 0, 0}), 120) << i;
+    for (std::uint32_t k = 0; k < i; ++k)
+      ASSERT_GE(difference(signature_color(i), signature_color(k)), i < 32 ? 72 : 36) << i << ' ' << k;
+  }
+}
+
+TEST(SignatureColor, NoneComesTwice) {
+  std::set<std::array<std::uint8_t, 3>> seen;
+  for (std::uint32_t i = 0; i < 200000; ++i) seen.insert(signature_color(i));
+  EXPECT_EQ(seen.size(), 200000U);
+  EXPECT_FALSE(seen.contains({0, 0, 0}));
+}
+
+// They are promised to stay.
+TEST(SignatureColor, IsFixed) {
+  EXPECT_EQ(signature_color(0), (std::array<std::uint8_t, 3>{255, 255, 255}));
+  EXPECT_EQ(signature_color(1), (std::array<std::uint8_t, 3>{218, 0, 255}));
+  EXPECT_EQ(signature_color(2), (std::array<std::uint8_t, 3>{0, 255, 36}));
+}
+
+TEST(SignaturePicture, HasTheCodesAndABlackBackground) {
+  const AovPlane ids{Aov::id, {}, {2, -1, 7}};
+  const std::vector<float> rgb = signature_picture(ids);
+  std::array<unsigned char, 9> codes{};
+  to_srgb8(rgb.data(), codes.size(), codes.data());
+  const auto seven = signature_color(7);
+  EXPECT_EQ(codes, (std::array<unsigned char, 9>{0, 255, 36, 0, 0, 0, seven[0], seven[1], seven[2]}));
+}
+
+TEST(Srgb, EveryCodeComesBack) {
+  for (int code = 0; code < 256; ++code) {
+    const float linear = linear_of_srgb8(static_cast<unsigned char>(code));
+    unsigned char back = 0;
+    to_srgb8(&linear, 1, &back);
+    EXPECT_EQ(back, code);
+  }
+}
+
+TEST(AovPicture, PacksIdsIntoCodes) {
+  const AovPlane ids{Aov::primitive, {}, {-1, 0, 0x00FEDCBA}};
+  const std::vector<float> rgb = aov_picture(ids);
+  std::array<unsigned char, 9> codes{};
+  to_srgb8(rgb.data(), codes.size(), codes.data());
+  EXPECT_EQ(codes, (std::array<unsigned char, 9>{0, 0, 0, 1, 0, 0, 0xBB, 0xDC, 0xFE}));
+}
+
+TEST(AovPicture, ShowsNumbersInTheirRange) {
+  const auto codes_of = [](const AovPlane& plane) {
+    const std::vector<float> rgb = aov_picture(plane);
+    std::vector<int> codes;
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+      std::array<unsigned char, 3> code{};
+      to_srgb8(&rgb[i], 3, code.data());
+      for (const unsigned char c : code) codes.push_back(c);
+    }
+    return codes;
+  };
+  EXPECT_EQ(codes_of({Aov::depth, {2, 4, infinity}, {}}),
+            (std::vector<int>{255, 255, 255, 26, 26, 26, 0, 0, 0}));
+  EXPECT_EQ(codes_of({Aov::normal, {0, 0, 1, 0, 0, 0}, {}}), (std::vector<int>{128, 128, 255, 0, 0, 0}));
+  EXPECT_EQ(codes_of({Aov::cost, {}, {1, 5}}), (std::vector<int>{51, 51, 51, 255, 255, 255}));
+  EXPECT_EQ(codes_of({Aov::shadow, {1, 0.5F, 0}, {}}), (std::vector<int>{255, 128, 0}));
+  EXPECT_EQ(codes_of({Aov::uv, {0.5F, 3.25F}, {}}), (std::vector<int>{128, 64, 0}));
+}
+
+// One channel of a file by its name: its bits; false if there is none or it is of another type.
+bool read_channel(const fs::path& file, const char* name, bool integer, std::vector<std::uint32_t>& bits) {
+  using Read = int(const char*, const char*, int, std::uint32_t*, std::size_t);
+  const fs::path module = fs::read_symlink("/proc/self/exe").parent_path() / "oiio_reader.so";
+  void* library = dlopen(module.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr) throw std::runtime_error(dlerror());
+  auto* read = reinterpret_cast<Read*>(dlsym(library, "read_channel"));
+  return read(file.c_str(), name, integer ? 1 : 0, bits.data(), bits.size()) != 0;
+}
+
+TEST(EncodeLayers, HoldsEveryBitUnderItsName) {
+  std::vector<Aov> aovs;
+  for (std::size_t i = 0; i < aov_count; ++i) aovs.push_back(static_cast<Aov>(i));
+  Frame frame = black_frame(3, 2, aovs);
+  std::uint32_t next = 1;
+  for (float& value : frame.rgb) value = static_cast<float>(++next) * 0.1F;
+  for (AovPlane& plane : frame.aovs) {
+    for (float& value : plane.values) value = static_cast<float>(++next) * 0.7F;
+    for (std::int32_t& id : plane.ids)
+      id = static_cast<std::int32_t>(++next) + 0x7654320F; // more than 24 bits
+  }
+  const fs::path file = fs::temp_directory_path() / ("fastrt-layers-" + std::to_string(getpid()) + ".exr");
+  const std::vector<unsigned char> bytes = encode_layers(frame, 2);
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  std::vector<std::uint32_t> bits(6);
+  const char* const colors[] = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    ASSERT_TRUE(read_channel(file, colors[c], false, bits));
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(std::bit_cast<float>(bits[i]), frame.rgb[3 * i + c]);
+  }
+  for (const AovPlane& plane : frame.aovs) {
+    const AovInfo& info = aov_info(plane.aov);
+    const auto channels = static_cast<std::size_t>(info.channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+      ASSERT_TRUE(read_channel(file, info.channel_names[c], info.integer, bits)) << info.channel_names[c];
+      for (std::size_t i = 0; i < 6; ++i) {
+        if (info.integer)
+          EXPECT_EQ(bits[i], static_cast<std::uint32_t>(plane.ids[i]) + (plane.aov <= Aov::material ? 1 : 0));
+        else
+          EXPECT_EQ(std::bit_cast<float>(bits[i]), plane.values[channels * i + c]);
+      }
+    }
+  }
+  EXPECT_FALSE(read_channel(file, "nonsense", false, bits));
+  fs::remove(file);
+}
+
+} // namespace
+} // namespace fastrt
