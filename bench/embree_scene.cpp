@@ -76,11 +76,7 @@ public:
   void load(const RayBatch* batches, std::size_t count) override {
     packets_.resize(count * batch_size / width);
     lanes_.clear();
-    for (std::size_t b = 0; b < count; ++b)
-      for (int first = 0; first < batches[b].count; first += width) {
-        fill(packets_[lanes_.size()], batches[b], first);
-        lanes_.push_back(std::min(width, batches[b].count - first));
-      }
+    for (std::size_t b = 0; b < count; ++b) load(batches[b]);
   }
 
   void trace() override {
@@ -112,9 +108,22 @@ private:
   };
   static constexpr ValidLanes valid_lanes{};
 
-  static void fill(RayHit& packet, const RayBatch& batch, int first) {
+  // Packets are full, whatever places the batch leaves empty.
+  void load(const RayBatch& batch) {
+    int rows[batch_size];
+    int rays = 0;
+    for (int i = 0; i < batch.count; ++i)
+      if (is_ray(batch, i)) rows[rays++] = i;
+    for (int first = 0; first < rays; first += width) {
+      const int used = std::min(width, rays - first);
+      fill(packets_[lanes_.size()], batch, rows + first, used);
+      lanes_.push_back(used);
+    }
+  }
+
+  static void fill(RayHit& packet, const RayBatch& batch, const int* rows, int used) {
     for (int lane = 0; lane < width; ++lane) {
-      const int i = std::min(first + lane, batch.count - 1);
+      const int i = rows[std::min(lane, used - 1)];
       at(packet.ray.org_x, lane) = batch.origin_x[i];
       at(packet.ray.org_y, lane) = batch.origin_y[i];
       at(packet.ray.org_z, lane) = batch.origin_z[i];

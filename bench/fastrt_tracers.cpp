@@ -25,6 +25,7 @@ public:
     out.clear();
     for (std::size_t b = 0; b < count_; ++b)
       for (int i = 0; i < rays_[b].count; ++i) {
+        if (!is_ray(rays_[b], i)) continue;
         const std::int32_t hit = hits_[b].primitive[i];
         out.push_back(question_ == Question::any ? std::min(hit, 0) : hit);
       }
@@ -49,6 +50,7 @@ public:
     for (std::size_t b = 0; b < count; ++b)
       for (int i = 0; i < batches[b].count; ++i) {
         const RayBatch& r = batches[b];
+        if (!is_ray(r, i)) continue;
         rays_.push_back({{r.origin_x[i], r.origin_y[i], r.origin_z[i]},
                          {r.dir_x[i], r.dir_y[i], r.dir_z[i]},
                          r.t_min[i],

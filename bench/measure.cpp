@@ -38,7 +38,7 @@ std::size_t batches_in_chunk(const RaySet& set, std::size_t chunk) {
 std::size_t rays_in_chunk(const RaySet& set, std::size_t chunk) {
   std::size_t rays = 0;
   for (std::size_t i = 0; i < batches_in_chunk(set, chunk); ++i)
-    rays += static_cast<std::size_t>(set.batches[chunk * chunk_batches + i].count);
+    rays += static_cast<std::size_t>(rays_in(set.batches[chunk * chunk_batches + i]));
   return rays;
 }
 

@@ -27,8 +27,7 @@ constexpr std::array<BatchShape, kind_count> kind_shapes{BatchShape::common_orig
 
 using TileBatches = std::array<RayBatch, kind_count>;
 
-void push(RayBatch& batch, const Vec3& origin, const Vec3& dir, float t_max, std::int32_t exclude) {
-  const int i = batch.count++;
+void put(RayBatch& batch, int i, const Vec3& origin, const Vec3& dir, float t_max, std::int32_t exclude) {
   batch.origin_x[i] = origin.x;
   batch.origin_y[i] = origin.y;
   batch.origin_z[i] = origin.z;
@@ -38,6 +37,9 @@ void push(RayBatch& batch, const Vec3& origin, const Vec3& dir, float t_max, std
   batch.t_min[i] = 0.0F;
   batch.t_max[i] = t_max;
   batch.exclude[i] = exclude;
+}
+void push(RayBatch& batch, const Vec3& origin, const Vec3& dir, float t_max, std::int32_t exclude) {
+  put(batch, batch.count++, origin, dir, t_max, exclude);
 }
 
 // A cosine-weighted direction about the normal; the same for the same pixel.
@@ -51,7 +53,7 @@ Vec3 random_direction(const Vec3& normal, std::uint32_t pixel) {
 }
 
 // The rays that leave one surface point towards the lights and into the scene.
-void push_secondary(const Surface& s, const View& view, std::uint32_t pixel, TileBatches& batches) {
+void push_secondary(const Surface& s, const View& view, std::uint32_t tile, int i, TileBatches& batches) {
   const Vec3& ng = s.geometric_normal;
   const float h = reference::offset_for(s.magnitude);
   const Vec3 outside = s.point + h * ng, inside = s.point - h * ng;
@@ -60,16 +62,17 @@ void push_secondary(const Surface& s, const View& view, std::uint32_t pixel, Til
     const Vec3 light = glm::abs(view.light);
     const float largest = std::max({s.magnitude, light.x, light.y, light.z});
     const Vec3 end = s.point + reference::offset_for(largest) * ng;
-    push(batches[point_shadow], view.light, end - view.light, 1.0F, s.planar);
+    put(batches[point_shadow], i, view.light, end - view.light, 1.0F, s.planar);
   }
   if (glm::dot(ng, view.to_light) > 0.0F)
-    push(batches[directional_shadow], outside, view.to_light, infinity, s.planar);
+    put(batches[directional_shadow], i, outside, view.to_light, infinity, s.planar);
   const float cos_i = glm::dot(s.to_viewer, ng);
   push(batches[mirror], outside, s.incident + 2.0F * cos_i * ng, infinity, s.planar);
   constexpr float eta = 1.0F / 1.5F;
   const float cos_t = std::sqrt(1.0F - eta * eta * (1.0F - cos_i * cos_i));
   push(batches[refracted], inside, eta * s.incident + (eta * cos_i - cos_t) * ng, infinity, s.planar);
-  push(batches[random_rays], outside, random_direction(ng, pixel), infinity, s.planar);
+  push(batches[random_rays], outside, random_direction(ng, tile * 256U + static_cast<std::uint32_t>(i)),
+       infinity, s.planar);
 }
 
 void make_camera_rays(const CameraFrame& frame, int tile_x, int tile_y, RayBatch& batch) {
@@ -87,6 +90,7 @@ void make_tile(const Tracer& tracer, const View& view, const CameraFrame& frame,
     batches[static_cast<std::size_t>(kind)] = {};
     batches[static_cast<std::size_t>(kind)].shape = kind_shapes[static_cast<std::size_t>(kind)];
   }
+  batches[point_shadow].count = batches[directional_shadow].count = batch_size;
   RayBatch& rays = batches[primary];
   make_camera_rays(frame, tile_x, tile_y, rays);
   std::array<float, batch_size> t, u, v;
@@ -100,11 +104,17 @@ void make_tile(const Tracer& tracer, const View& view, const CameraFrame& frame,
                              {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}};
     const Surface surface = reference::surface_at(tracer.scene(), ray, {t[i], u[i], v[i], primitive[i]});
     const auto x = static_cast<std::uint32_t>(tile_x), y = static_cast<std::uint32_t>(tile_y);
-    push_secondary(surface, view, (y * 65536U + x) * 256U + static_cast<std::uint32_t>(i), batches);
+    push_secondary(surface, view, y * 65536U + x, static_cast<int>(i), batches);
   }
 }
 
 } // namespace
+
+int rays_in(const RayBatch& batch) {
+  int rays = 0;
+  for (int i = 0; i < batch.count; ++i) rays += is_ray(batch, i);
+  return rays;
+}
 
 View outside_view(const Aabb& bounds) {
   View view;
@@ -141,8 +151,9 @@ std::vector<RaySet> make_ray_sets(const Tracer& tracer, const View& view, int wi
     for (int x = 0; x < width; x += tile_side) {
       make_tile(tracer, view, frame, x, y, batches);
       for (std::size_t kind = 0; kind < kind_count; ++kind) {
-        if (batches[kind].count == 0) continue;
-        all[kind].ray_count += static_cast<std::size_t>(batches[kind].count);
+        const int rays = rays_in(batches[kind]);
+        if (rays == 0) continue;
+        all[kind].ray_count += static_cast<std::size_t>(rays);
         all[kind].batches.push_back(batches[kind]);
       }
     }

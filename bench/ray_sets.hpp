@@ -16,12 +16,16 @@ namespace fastrt::bench {
 
 enum class Question { closest, any };
 
+// Shadow rays keep the places of their pixels in the tile, as in the Whitted loop, so batches of them have
+// rows that are no rays: those have no room between t_min and t_max, and count nowhere.
 struct RaySet {
   std::string name;
   Question question = Question::closest;
   std::vector<RayBatch> batches;
   std::size_t ray_count = 0;
 };
+inline bool is_ray(const RayBatch& batch, int i) { return batch.t_min[i] < batch.t_max[i]; }
+int rays_in(const RayBatch& batch);
 
 // Where the rays come from.
 struct View {

@@ -19,7 +19,7 @@ static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatc
   clear_hits(rays, hits);
   if (scene.root == no_child) return;
   if (rays.shape == BatchShape::any) {
-    trace_rays_alone<any>(scene, rays, hits, 0, rays.count);
+    trace_rays_alone<any>(scene, rays, hits);
     return;
   }
   const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;

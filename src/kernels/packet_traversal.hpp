@@ -126,21 +126,16 @@ FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, s
 
 // The rays in `bits` follow the subtree `child` one by one.
 template <bool any>
-FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, int first,
+FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, int first,
                                std::uint32_t child, std::uint32_t bits, Packet& p) {
-  alignas(64) float t[widest];
-  alignas(64) std::int32_t primitive[widest];
-  p.t.store_aligned(t);
-  p.primitive.store_aligned(primitive);
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    LoneRay ray = make_lone_ray(scene, rays, first + lane, t[lane], primitive[lane]);
-    trace_lone_ray<any>(scene, ray, child);
-    t[lane] = ray.t;
-    primitive[lane] = ray.primitive;
-  }
-  p.t = PacketF::load_aligned(t);
-  p.primitive = PacketI::load_aligned(primitive);
+  p.t.store_unaligned(hits.t + first);
+  p.primitive.store_unaligned(hits.primitive + first);
+  std::uint8_t which[widest];
+  int count = 0;
+  for (; bits != 0; bits &= bits - 1) which[count++] = static_cast<std::uint8_t>(first + __builtin_ctz(bits));
+  trace_lone_rays<any>(scene, {rays, hits, child, which, which + count});
+  p.t = load<PacketF>(hits.t + first);
+  p.primitive = load<PacketI>(hits.primitive + first);
 }
 
 // Rays first .. first + widest - 1 of the batch, as one packet.
@@ -167,7 +162,7 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
       continue;
     }
     if (__builtin_popcount(active_bits) <= lone_ray_limit) {
-      go_on_alone<any>(scene, rays, first, child, active_bits, p);
+      go_on_alone<any>(scene, rays, hits, first, child, active_bits, p);
       continue;
     }
     const WideNode& node = scene.nodes[child];

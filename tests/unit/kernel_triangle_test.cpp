@@ -55,7 +55,8 @@ TEST_P(TriangleKernel, EqualsTheTwinOnEveryKindOfPair) {
       for (Pair& pair : table.pairs()) pair = triangle_pair(kind, random);
       hits += expect_same(table, kind);
     }
-    EXPECT_GT(hits, 0U) << k;
+    // Triangles without area are hit so rarely that a short run may see no hit at all.
+    if (kind != TriangleKind::degenerate || !slow_build) EXPECT_GT(hits, 0U) << k;
     if (kind == TriangleKind::inside) {
       EXPECT_GT(hits, table_size * 9 / 10 * effort(20));
     }
