@@ -25,4 +25,8 @@ struct CameraFrame {
 // (0, 180), or numbers that are not finite. width and height are at least 1.
 CameraFrame make_camera_frame(const Camera& camera, int width, int height);
 
+// How much the part of a surface that one of a pixel's samples stands for widens per unit of distance: what
+// textures are averaged over.
+float footprint_spread(const CameraFrame& camera, int samples_per_pixel);
+
 } // namespace fastrt

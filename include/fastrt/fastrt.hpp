@@ -23,6 +23,7 @@
 #include <fastrt/math.hpp>
 #include <fastrt/render.hpp>
 #include <fastrt/scene.hpp>
+#include <fastrt/texture.hpp>
 #include <fastrt/tracer.hpp>
 #include <fastrt/version.hpp>
 #include <fastrt/write.hpp>

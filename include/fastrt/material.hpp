@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fastrt/math.hpp>
+#include <fastrt/texture.hpp>
 
 #include <cstdint>
 #include <string>
@@ -36,8 +37,15 @@ struct Material {
   bool thin = false;       // light passes straight through; the inside is no medium
   bool unlit = false;      // shows Ke + Kd, no lights, no secondary rays
 
-  // Texture files as the scene names them, relative to its folder; kept for later, not sampled yet.
-  std::string diffuse_map, ambient_map, specular_map, emission_map, opacity_map, bump_map;
+  // What multiplies the terms above, point by point: indices of SceneDesc::textures, or no_texture.
+  std::uint32_t ambient_texture = no_texture, diffuse_texture = no_texture, specular_texture = no_texture;
+  std::uint32_t emission_texture = no_texture, opacity_texture = no_texture;
+  // Turns the shading normal: a height, or with bump_is_normal_map a normal (x along u, y along v, 0.5 being
+  // 0). bump_scale: the height of 1 in pixels of the image; for normal maps it multiplies x and y.
+  std::uint32_t bump_texture = no_texture;
+  float bump_scale = 1;
+  bool bump_is_normal_map = false;
+  bool vertex_colors = false; // SceneDesc::colors multiply Ka and Kd
 };
 
 } // namespace fastrt

@@ -5,6 +5,7 @@
 #include <fastrt/light.hpp>
 #include <fastrt/material.hpp>
 #include <fastrt/math.hpp>
+#include <fastrt/texture.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -50,9 +51,11 @@ struct SphereColumns {
 struct SceneDesc {
   Columns3 positions, normals;
   Columns2 uvs;
+  Columns3 colors; // linear RGB of each position, or empty
   TriangleColumns triangles;
   SphereColumns spheres;
   std::vector<Material> materials;       // triangles.material and spheres.material index these
+  std::vector<Texture> textures;         // materials index these
   std::vector<std::string> object_names; // triangles.object and spheres.object index these
   std::vector<Light> lights;
   Vec3 ambient{0.0F};    // Ia
@@ -76,6 +79,7 @@ public:
   const TriangleColumns& triangles() const noexcept { return desc_.triangles; }
   const SphereColumns& spheres() const noexcept { return desc_.spheres; }
   const std::vector<Material>& materials() const noexcept { return desc_.materials; }
+  const std::vector<Texture>& textures() const noexcept { return desc_.textures; }
   const std::vector<Light>& lights() const noexcept { return desc_.lights; }
 
   std::uint32_t triangle_count() const noexcept { return static_cast<std::uint32_t>(desc_.triangles.size()); }
@@ -104,11 +108,13 @@ private:
 class SceneBuilder {
 public:
   std::uint32_t add_material(Material material);
+  std::uint32_t add_texture(Texture texture);
   // A mesh of its own object. positions: one per vertex; indices: three per triangle, into positions;
-  // normals: empty or one per vertex. Returns the object id. Throws InputError for an index out of range or a
-  // count that is no multiple of three.
+  // normals, uvs and colors: empty or one per vertex. Returns the object id. Throws InputError for an index
+  // out of range or a count that is no multiple of three.
   std::uint32_t add_mesh(std::span<const Vec3> positions, std::span<const std::uint32_t> indices,
-                         std::uint32_t material, std::span<const Vec3> normals = {}, std::string name = {});
+                         std::uint32_t material, std::span<const Vec3> normals = {}, std::string name = {},
+                         std::span<const Vec2> uvs = {}, std::span<const Vec3> colors = {});
   std::uint32_t add_sphere(const Vec3& center, float radius, std::uint32_t material, std::string name = {});
   void add_light(const Light& light) { desc_.lights.push_back(light); }
   void set_ambient(const Vec3& ambient) { desc_.ambient = ambient; }

@@ -4,6 +4,7 @@
 #include "src/load/mtl.hpp"
 #include "src/load/source.hpp"
 #include "src/load/text.hpp"
+#include "src/scene/threads.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -22,17 +23,17 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28U;
 // Textures lie beside the material file or beside the scene.
 MtlOptions::TextureVerdict check_texture(const SceneFolder& folder, const fs::path& beside,
                                          const std::string& name) {
-  Finding finding = folder.find(name, beside).finding;
-  if (finding == Finding::missing) finding = folder.find(name, folder.root()).finding;
-  switch (finding) {
+  SceneFolder::Answer answer = folder.find(name, beside);
+  if (answer.finding == Finding::missing) answer = folder.find(name, folder.root());
+  switch (answer.finding) {
   case Finding::regular:
-    return {};
+    return {{}, std::move(answer.path)};
   case Finding::missing:
-    return {"does not exist", false};
+    return {"does not exist", {}};
   case Finding::outside:
-    return {"lies outside the scene directory; it is not used", true};
+    return {"lies outside the scene directory; it is not used", {}};
   default:
-    return {"is no regular file; it is not used", true};
+    return {"is no regular file; it is not used", {}};
   }
 }
 
@@ -98,7 +99,8 @@ void MaterialFiles::parse(const fs::path& path, const std::string& shown, std::u
     return check_texture(folder_, path.parent_path(), name);
   };
   EventLog found;
-  const auto records = parse_mtl(text, mtl_options, found);
+  auto records = parse_mtl(text, mtl_options, found);
+  if (!found.failed()) read_maps(records, thread_count(options_.threads), found);
   map_materials(records, options_.tr_is_opacity, materials, found);
   EventReport report;
   report.take(std::move(found));

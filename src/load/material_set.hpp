@@ -23,6 +23,7 @@ using MaterialIds = std::unordered_map<std::string, std::uint32_t, NameHash, std
 // The materials of a scene, in the order in which they were first defined.
 struct MaterialSet {
   std::vector<Material> materials;
+  std::vector<Texture> textures;
   MaterialIds ids;
 
   // The last one of a name wins.

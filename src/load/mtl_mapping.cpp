@@ -61,7 +61,7 @@ void set_illumination(const MtlRecord& record, Material& m) {
     // Tf alone says how much passes through; d is left at 1 by most exporters.
     if (m.opacity == 1) m.opacity = 0;
     m.transmission = record.illum == 6 ? (Vec3(1.0F) - glm::min(m.specular, Vec3(1.0F))) * tf : tf;
-  } else if (m.opacity < 1) {
+  } else if (m.opacity < 1 || m.opacity_texture != no_texture) {
     m.thin = true;
     if (record.illum == 4 || record.illum == 9) m.transmission = tf;
   }
@@ -77,27 +77,89 @@ void warn_about(const MtlRecord& record, const Material& m, EventLog& log) {
     log.warn(record.offset, "illum", name + ": illum 10 (shadow catcher) is not supported and taken as 2");
   const Vec3 reflected = m.fresnel == Fresnel::none ? m.mirror : Vec3(0.0F);
   const Vec3 energy = m.opacity * (m.diffuse + m.specular) + (1 - m.opacity) * (m.transmission + reflected);
-  if (!m.unlit && std::max({energy.x, energy.y, energy.z}) > 1.001F)
+  // How much a texture takes away is not known.
+  const bool varies = m.diffuse_texture != no_texture || m.specular_texture != no_texture;
+  if (!m.unlit && !varies && std::max({energy.x, energy.y, energy.z}) > 1.001F)
     log.warn(record.offset, "energy", name + " returns more light than it gets: Kd + Ks + Kt exceeds 1");
 }
 
-Material map_material(const MtlRecord& record, bool tr_is_opacity) {
+Texture texture_of(const MtlMap& map) {
+  Texture texture;
+  texture.name = map.name;
+  texture.image = map.image;
+  texture.scale = map.scale;
+  texture.offset = map.offset_uv;
+  texture.clamp = map.clamp;
+  texture.base = map.base;
+  texture.gain = map.gain;
+  switch (map.channel) {
+  case 'r':
+    texture.channel = {1, 0, 0, 0};
+    break;
+  case 'g':
+    texture.channel = {0, 1, 0, 0};
+    break;
+  case 'b':
+    texture.channel = {0, 0, 1, 0};
+    break;
+  case 'm':
+    texture.channel = {0, 0, 0, 1};
+    break;
+  default:
+    break;
+  }
+  return texture;
+}
+
+// What a surface shows whose texture is missing.
+Texture missing_texture(const MtlMap& map) {
+  Texture texture;
+  texture.name = map.name;
+  texture.kind = TextureKind::checker;
+  texture.color_a = {1, 0, 1, 1};
+  texture.color_b = {0.25F, 0.25F, 0.25F, 1};
+  texture.scale = Vec2(8.0F);
+  return texture;
+}
+
+std::uint32_t add_texture(Texture texture, MaterialSet& materials) {
+  materials.textures.push_back(std::move(texture));
+  return static_cast<std::uint32_t>(materials.textures.size() - 1);
+}
+
+std::uint32_t add_map(const MtlMap& map, MaterialSet& materials) {
+  return map.image == nullptr ? no_texture : add_texture(texture_of(map), materials);
+}
+
+void set_textures(const MtlRecord& record, MaterialSet& materials, Material& m) {
+  m.diffuse_texture = record.map_kd.failed ? add_texture(missing_texture(record.map_kd), materials)
+                                           : add_map(record.map_kd, materials);
+  m.ambient_texture = add_map(record.map_ka, materials);
+  // A file without a map_Ka means its map_Kd for both.
+  if (m.ambient_texture == no_texture) m.ambient_texture = m.diffuse_texture;
+  m.specular_texture = add_map(record.map_ks, materials);
+  m.emission_texture = add_map(record.map_ke, materials);
+  m.opacity_texture = add_map(record.map_d, materials);
+  // Cut-outs come as greys or as the alpha of a picture.
+  if (m.opacity_texture != no_texture && record.map_d.channel == 0 && record.map_d.image->has_alpha())
+    materials.textures[m.opacity_texture].channel = {0, 0, 0, 1};
+  m.bump_texture = add_map(record.bump, materials);
+  m.bump_scale = record.bump.bump;
+  m.bump_is_normal_map = record.bump.is_normal_map;
+}
+
+Material map_material(const MtlRecord& record, bool tr_is_opacity, MaterialSet& materials) {
   Material m;
   m.name = record.name;
   m.diffuse = record.kd.value_or(Vec3(record.map_kd.empty() ? default_grey : 1.0F));
   m.ambient = record.ka.value_or(m.diffuse);
-  m.specular = record.ks.value_or(Vec3(0.0F));
-  m.emission = record.ke.value_or(Vec3(0.0F));
+  m.specular = record.ks.value_or(Vec3(record.map_ks.image == nullptr ? 0.0F : 1.0F));
+  m.emission = record.ke.value_or(Vec3(record.map_ke.image == nullptr ? 0.0F : 1.0F));
   m.shininess = record.ns.value_or(10.0F);
   m.ior = record.ni.value_or(1.0F);
   m.opacity = opacity_of(record, tr_is_opacity);
+  set_textures(record, materials, m);
   set_illumination(record, m);
-  m.diffuse_map = record.map_kd;
-  m.ambient_map = record.map_ka;
-  m.specular_map = record.map_ks;
-  m.emission_map = record.map_ke;
-  m.opacity_map = record.map_d;
-  m.bump_map = record.bump;
   return m;
 }
 
@@ -120,7 +182,7 @@ void map_materials(const std::vector<MtlRecord>& records, bool tr_is_opacity, Ma
     if (materials.ids.contains(record.name))
       log.warn(record.offset, "duplicate material",
                "material " + in_quotes(record.name) + " is defined again; the last definition counts");
-    Material material = map_material(record, tr_is_opacity || guessed);
+    Material material = map_material(record, tr_is_opacity || guessed, materials);
     warn_about(record, material, log);
     materials.add(std::move(material));
   }

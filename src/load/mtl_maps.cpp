@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace fastrt {
 
@@ -40,8 +41,26 @@ std::string_view without_quotes(std::string_view name) {
 
 } // namespace
 
+namespace {
+
+// What the words and numbers behind an option say; numbers that were left out are not set.
+void apply_option(std::string_view option, const std::string& word,
+                  const std::array<std::optional<float>, 3>& n, MtlMap& map) {
+  if (option == "-clamp") map.clamp = word == "on";
+  if (option == "-colorspace") map.is_linear = word == "linear" || word == "raw";
+  if (option == "-imfchan" && word.size() == 1 &&
+      std::string_view("rgbml").find(word[0]) != std::string_view::npos)
+    map.channel = word[0];
+  if (option == "-s") map.scale = {n[0].value_or(1.0F), n[1].value_or(1.0F)};
+  if (option == "-o") map.offset_uv = {n[0].value_or(0.0F), n[1].value_or(0.0F)};
+  if (option == "-bm") map.bump = n[0].value_or(1.0F);
+  if (option == "-mm") map.base = n[0].value_or(0.0F), map.gain = n[1].value_or(1.0F);
+}
+
+} // namespace
+
 // Takes what belongs to an option; `end` becomes where the line goes on after it.
-bool MtlParser::read_option(std::string_view option, Words& words, std::size_t& end) {
+bool MtlParser::read_option(std::string_view option, Words& words, std::size_t& end, MtlMap& map) {
   const MapOption* found = nullptr;
   for (const MapOption& known : map_options)
     if (known.name == option) found = &known;
@@ -50,9 +69,12 @@ bool MtlParser::read_option(std::string_view option, Words& words, std::size_t& 
     log_.warn(here(words), "texture option", "unknown texture option " + in_quotes(option) + " skipped");
     return true;
   }
+  std::string last_word;
+  std::array<std::optional<float>, 3> numbers;
   for (std::size_t i = 0; i < found->words; ++i) {
     const std::string_view word = words.next();
     end = words.position() + word.size();
+    last_word = lower_case(word);
   }
   for (std::size_t i = 0; i < found->numbers; ++i) {
     Words ahead = words;
@@ -63,32 +85,37 @@ bool MtlParser::read_option(std::string_view option, Words& words, std::size_t& 
     if (!take_number(word, here(ahead), value)) return false;
     if (std::abs(value) > largest_option)
       log_.warn(here(ahead), "texture option", "texture option " + in_quotes(word) + " is out of range");
+    numbers[i] = value;
     end = ahead.position() + word.size();
     words = ahead;
   }
+  if (option == "-t" || last_word == "z")
+    log_.warn_once(here(words), "unsupported statement", option,
+                   "texture option " + in_quotes(option) + " is not supported");
+  apply_option(option, last_word, numbers, map);
   return true;
 }
 
-bool MtlParser::read_map(std::string_view line, Words& words, std::string& map) {
+bool MtlParser::read_map(std::string_view line, Words& words, MtlMap& map) {
   std::size_t end = words.position();
   while (end != line.size() && !is_blank(line[end])) ++end;
   for (Words ahead = words;;) {
     const std::string_view word = ahead.next();
     if (word.size() < 2 || word.front() != '-') break;
-    if (!read_option(lower_case(word), ahead, end)) return false;
+    if (!read_option(lower_case(word), ahead, end, map)) return false;
   }
   const std::string_view name = without_quotes(name_in(line.substr(end)));
   if (name.empty()) {
     log_.warn(line_offset_, "texture", "a texture without a file name");
     return true;
   }
-  map = std::string(name);
+  map.name = std::string(name);
+  map.offset = line_offset_ + static_cast<std::uint64_t>(name.data() - line.data());
   if (!options_.check_texture) return true;
-  const auto verdict = options_.check_texture(map);
-  if (!verdict.fault.empty())
-    log_.warn(line_offset_ + static_cast<std::uint64_t>(name.data() - line.data()), "texture",
-              "texture " + in_quotes(map) + ' ' + verdict.fault);
-  if (verdict.refused) map.clear();
+  const auto verdict = options_.check_texture(map.name);
+  map.path = verdict.path;
+  map.failed = !verdict.fault.empty();
+  if (map.failed) log_.warn(map.offset, "texture", "texture " + in_quotes(map.name) + ' ' + verdict.fault);
   return true;
 }
 

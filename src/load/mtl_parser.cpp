@@ -64,10 +64,13 @@ bool MtlParser::read_line(std::string_view line) {
   if (records_.empty()) return fail(start, in_quotes(keyword) + " before the first 'newmtl'");
   if (map == maps.end()) return read_statement(lower, words);
   MtlRecord& record = records_.back();
-  const std::array<std::string*, 10> targets = {
-      &record.map_ka, &record.map_kd, &record.map_ks, &record.map_ke, &record.map_d,
-      &record.bump,   &record.bump,   &record.bump,   &record.bump,   &record.map_d};
-  return read_map(line, words, *targets[static_cast<std::size_t>(map - maps.begin())]);
+  const std::array<MtlMap*, 10> targets = {&record.map_ka, &record.map_kd, &record.map_ks, &record.map_ke,
+                                           &record.map_d,  &record.bump,   &record.bump,   &record.bump,
+                                           &record.bump,   &record.map_d};
+  MtlMap& target = *targets[static_cast<std::size_t>(map - maps.begin())];
+  target = {};
+  target.is_normal_map = lower == "norm" || lower == "map_norm";
+  return read_map(line, words, target);
 }
 
 bool MtlParser::read_statement(std::string_view keyword, Words& words) {

@@ -28,8 +28,8 @@ private:
   bool read_shininess(Words& words);
   bool read_ior(Words& words);
   bool read_illum(Words& words);
-  bool read_map(std::string_view line, Words& words, std::string& map);
-  bool read_option(std::string_view option, Words& words, std::size_t& end);
+  bool read_map(std::string_view line, Words& words, MtlMap& map);
+  bool read_option(std::string_view option, Words& words, std::size_t& end, MtlMap& map);
   bool take_number(std::string_view word, std::uint64_t offset, float& value);
   bool fail(std::uint64_t offset, std::string message);
   void skip(std::string_view keyword);

@@ -79,6 +79,7 @@ void ObjReader::read_libraries() {
       if (settings_.read_library && !shared_log_.failed())
         settings_.read_library(names, offset, materials, shared_log_);
   desc_.materials = std::move(materials.materials);
+  desc_.textures = std::move(materials.textures);
   plan_.materials = std::move(materials.ids);
   plan_.default_material = static_cast<std::uint32_t>(desc_.materials.size());
 }

@@ -45,7 +45,7 @@ Vec3 value_of(const Scene& scene, const Sight& sight, Aov aov) {
   case Aov::uv:
     return {texture_coordinates(scene, sight.hit), 0.0F};
   case Aov::albedo:
-    return scene.materials()[sight.surface.material].diffuse;
+    return finish_of(scene.materials()[sight.surface.material], sight.surface).diffuse;
   default:
     return shadow_of(scene, sight);
   }

@@ -16,6 +16,9 @@ struct Ray {
   float t_min = 0;
   float t_max = infinity;
   std::int32_t excluded = no_primitive;
+  // Of the ray's footprint, for textures: its width at the origin, and how much it widens per unit of length.
+  float width = 0;
+  float spread = 0;
 };
 
 // On a miss: t is the ray's t_max and primitive is no_primitive. (u, v) weigh a triangle's second and third

@@ -34,6 +34,8 @@ Node child_of(const Node& parent, const Surface& surface, const Vec3& weight, co
   child.ray.origin = surface.point + offset * surface.geometric_normal;
   child.ray.direction = direction;
   child.ray.excluded = surface.planar;
+  child.ray.width = surface.width;
+  child.ray.spread = parent.ray.spread;
   child.weight = weight;
   child.depth = parent.depth + 1;
   child.media = media;

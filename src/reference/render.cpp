@@ -16,10 +16,12 @@ struct Job {
   const HitFinder* finder;
   const RenderSettings* settings;
   CameraFrame camera;
+  float spread; // of the rays' footprints
 };
 
-Ray camera_ray(const CameraFrame& camera, float px, float py) {
+Ray camera_ray(const CameraFrame& camera, float px, float py, float spread) {
   Ray ray;
+  ray.spread = spread;
   ray.origin = camera.eye;
   ray.direction = (camera.corner + px * camera.du) + py * camera.dv;
   return ray;
@@ -28,7 +30,8 @@ Ray camera_ray(const CameraFrame& camera, float px, float py) {
 // The ray through the pixel's centre: its colour; its AOVs go into the frame.
 Vec3 trace_center(const Job& job, int x, int y, RayCounts& rays, Sight& sight) {
   ++rays.primary;
-  const Ray ray = camera_ray(job.camera, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+  const Ray ray =
+      camera_ray(job.camera, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, job.spread);
   return ray_trace(*job.scene, *job.finder, ray, *job.settings, rays, sight);
 }
 
@@ -40,7 +43,7 @@ Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sig
                                             settings.seed, settings.filter == PixelFilter::tent);
   ++rays.primary;
   const Ray ray = camera_ray(job.camera, (static_cast<float>(x) + 0.5F) + offset.x,
-                             (static_cast<float>(y) + 0.5F) + offset.y);
+                             (static_cast<float>(y) + 0.5F) + offset.y, job.spread);
   return ray_trace(*job.scene, *job.finder, ray, settings, rays, sight);
 }
 
@@ -79,7 +82,9 @@ RayCounts render_row(const Job& job, int y, Frame& frame) {
 Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
              const RenderSettings& settings) {
   check(settings);
-  const Job job{&scene, &finder, &settings, make_camera_frame(camera, settings.width, settings.height)};
+  const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
+  const Job job{&scene, &finder, &settings, camera_frame,
+                footprint_spread(camera_frame, settings.samples_per_pixel)};
   Frame frame = black_frame(settings.width, settings.height, settings.aovs);
   FrameProgress progress(settings, settings.height);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count(settings.threads))

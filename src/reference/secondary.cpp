@@ -87,9 +87,8 @@ Secondary secondary_rays(const Scene& scene, const Surface& surface, const Media
   result.mirror_weight = material.mirror;
   result.transmitted_media = media;
   result.transmitted = surface.incident;
-  const Vec3 through = transmittance(material);
-  const bool transmissive = is_transmissive(through);
-  if (transmissive) result.transmitted_weight = through;
+  const bool transmissive = is_transmissive(material);
+  if (transmissive) result.transmitted_weight = transmittance(material, finish_of(material, surface).opacity);
 
   // Light that goes straight through, or nowhere, still meets the material's index for its Fresnel share.
   const bool bends = transmissive && !material.thin;

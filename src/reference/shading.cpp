@@ -2,6 +2,7 @@
 #include "src/reference/shading.hpp"
 
 #include "src/reference/arithmetic.hpp"
+#include "src/reference/textures.hpp"
 #include "src/simd/shared_math.hpp"
 
 namespace fastrt::reference {
@@ -9,9 +10,18 @@ namespace fastrt::reference {
 float shared_exp(float x) { return baseline::shared_exp<baseline::ScalarOps>(x); }
 float shared_pow(float x, float y) { return baseline::shared_pow<baseline::ScalarOps>(x, y); }
 
-Vec3 transmittance(const Material& material) { return (1.0F - material.opacity) * material.transmission; }
+Vec3 transmittance(const Material& material, float opacity) {
+  return (1.0F - opacity) * material.transmission;
+}
 
-Vec3 phong_model(const Material& material, const Surface& surface, const Vec3& to_light, float cos_n) {
+bool is_transmissive(const Material& material) {
+  const Vec3 most = material.opacity_texture != no_texture ? material.transmission
+                                                           : transmittance(material, material.opacity);
+  return most.x > 0.0F || most.y > 0.0F || most.z > 0.0F;
+}
+
+Vec3 phong_model(const Material& material, const Finish& finish, const Surface& surface, const Vec3& to_light,
+                 float cos_n) {
   const Vec3& n = surface.shading_normal;
   const Vec3& c = surface.to_viewer;
   float highlight = 0;
@@ -21,7 +31,7 @@ Vec3 phong_model(const Material& material, const Surface& surface, const Vec3& t
                         : glm::dot(n, glm::normalize(to_light + c));
     if (x > 0.0F) highlight = shared_pow(x, material.shininess);
   }
-  return material.diffuse * cos_n + material.specular * highlight;
+  return finish.diffuse * cos_n + finish.specular * highlight;
 }
 
 namespace {
@@ -49,10 +59,10 @@ Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
   if (!scene.has_transmission()) return finder.any(ray) ? Vec3(0.0F) : Vec3(1.0F);
   Vec3 left{1.0F};
   for (Hit hit = finder.closest(ray); hit.found(); hit = finder.closest(ray)) {
-    const std::uint32_t material = scene.material_of(static_cast<std::uint32_t>(hit.primitive));
-    const Vec3 through = transmittance(scene.materials()[material]);
-    if (!is_transmissive(through)) return Vec3(0.0F);
-    left = left * through;
+    const auto primitive = static_cast<std::uint32_t>(hit.primitive);
+    const Material& material = scene.materials()[scene.material_of(primitive)];
+    if (!is_transmissive(material)) return Vec3(0.0F);
+    left = left * transmittance(material, opacity_at(scene, ray, hit));
     if (left == Vec3(0.0F)) return left;
     ray.t_min = hit.t;
   }
@@ -64,9 +74,10 @@ Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
 Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays,
            Vec3& light_left) {
   const Material& material = scene.materials()[surface.material];
-  if (material.unlit) return material.emission + material.diffuse;
+  const Finish finish = finish_of(material, surface);
+  if (material.unlit) return finish.emission + finish.diffuse;
 
-  Vec3 lit = material.ambient * scene.desc().ambient;
+  Vec3 lit = finish.ambient * scene.desc().ambient;
   for (const Light& light : scene.lights()) {
     const Vec3 to_light =
         glm::normalize(light.kind == LightKind::point ? light.position - surface.point : -light.direction);
@@ -79,9 +90,9 @@ Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, 
       shadow = let_through(scene, finder, shadow_ray(light, surface, to_light));
       light_left = light_left + shadow;
     }
-    lit = lit + (phong_model(material, surface, to_light, cos_n) * light.intensity) * shadow;
+    lit = lit + (phong_model(material, finish, surface, to_light, cos_n) * light.intensity) * shadow;
   }
-  return material.emission + material.opacity * lit;
+  return finish.emission + finish.opacity * lit;
 }
 
 } // namespace fastrt::reference

@@ -13,16 +13,16 @@ namespace fastrt::reference {
 float shared_exp(float x);
 float shared_pow(float x, float y);
 
-// The share of light that passes through a surface of this material; above 0 in some channel: transmissive.
-Vec3 transmittance(const Material& material);
-inline bool is_transmissive(const Vec3& transmittance) {
-  return transmittance.x > 0.0F || transmittance.y > 0.0F || transmittance.z > 0.0F;
-}
+// The share of light that passes through a surface of this material and opacity.
+Vec3 transmittance(const Material& material, float opacity);
+// Whether any light passes somewhere.
+bool is_transmissive(const Material& material);
 
 // The lecture's phongModel for one light in the unit direction `to_light`: what the surface sends to the
 // viewer, before the light's intensity and its shadow. cos_n: of the angle between to_light and the shading
 // normal.
-Vec3 phong_model(const Material& material, const Surface& surface, const Vec3& to_light, float cos_n);
+Vec3 phong_model(const Material& material, const Finish& finish, const Surface& surface, const Vec3& to_light,
+                 float cos_n);
 
 // The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.
 // Each shadow that is asked for adds one to rays.shadow, and what it leaves of the light to light_left.

@@ -3,6 +3,7 @@
 
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/intersect.hpp"
+#include "src/reference/textures.hpp"
 
 namespace fastrt::reference {
 namespace {
@@ -66,6 +67,8 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
     surface.geometric_normal = -surface.geometric_normal;
   if (glm::dot(surface.shading_normal, surface.geometric_normal) < 0.0F)
     surface.shading_normal = -surface.shading_normal;
+  surface.width = ray.width + ray.spread * surface.distance;
+  if (has_textures(scene.materials()[surface.material])) apply_textures(scene, hit, surface);
   return surface;
 }
 

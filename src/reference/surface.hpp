@@ -6,8 +6,15 @@
 #include <fastrt/scene.hpp>
 
 #include <cstdint>
+#include <optional>
 
 namespace fastrt::reference {
+
+// The terms of a material at one point.
+struct Finish {
+  Vec3 ambient, diffuse, specular, emission;
+  float opacity;
+};
 
 // What shading needs to know of the place where a ray met a surface.
 struct Surface {
@@ -20,7 +27,15 @@ struct Surface {
   float magnitude = 0;                // the largest number that the point was computed from
   std::int32_t planar = no_primitive; // the primitive if it is flat: rays that leave it exclude it
   std::uint32_t material = 0;
+  float width = 0;              // of the ray's footprint here
+  std::optional<Finish> finish; // where the material has textures
 };
+
+// The material's own terms, or what its textures make of them.
+inline Finish finish_of(const Material& material, const Surface& surface) {
+  if (surface.finish) return *surface.finish;
+  return {material.ambient, material.diffuse, material.specular, material.emission, material.opacity};
+}
 
 // `hit` must be a hit of `ray`.
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit);

@@ -47,6 +47,7 @@ TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const Re
   copy(camera.corner, job.corner);
   copy(camera.du, job.du);
   copy(camera.dv, job.dv);
+  job.spread = footprint_spread(camera, settings.samples_per_pixel);
   job.width = settings.width;
   job.height = settings.height;
   job.samples = settings.samples_per_pixel;

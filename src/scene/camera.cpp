@@ -53,4 +53,8 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   return frame;
 }
 
+float footprint_spread(const CameraFrame& camera, int samples_per_pixel) {
+  return glm::length(camera.du) / std::sqrt(static_cast<float>(samples_per_pixel));
+}
+
 } // namespace fastrt

@@ -14,6 +14,8 @@ namespace fastrt {
 namespace {
 
 bool lets_light_through(const Material& material) {
+  const Vec3& through = material.transmission;
+  if (material.opacity_texture != no_texture) return through.x > 0.0F || through.y > 0.0F || through.z > 0.0F;
   const Vec3 transmit = (1.0F - material.opacity) * material.transmission;
   return transmit.x > 0.0F || transmit.y > 0.0F || transmit.z > 0.0F;
 }
@@ -59,7 +61,12 @@ std::size_t Scene::bytes() const noexcept {
   const auto& [v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object] = desc_.triangles;
   const SphereColumns& s = desc_.spheres;
   const Columns3 &p = desc_.positions, &n = desc_.normals;
-  return bytes_of(p.x, p.y, p.z, n.x, n.y, n.z, desc_.uvs.x, desc_.uvs.y) +
+  std::size_t images = 0;
+  for (const Texture& texture : desc_.textures)
+    if (texture.image != nullptr)
+      images += texture.image->bytes().size() + sizeof(float) * texture.image->floats().size();
+  const Columns3& c = desc_.colors;
+  return images + bytes_of(c.x, c.y, c.z) + bytes_of(p.x, p.y, p.z, n.x, n.y, n.z, desc_.uvs.x, desc_.uvs.y) +
          bytes_of(v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object) +
          bytes_of(s.x, s.y, s.z, s.radius, s.material, s.object);
 }

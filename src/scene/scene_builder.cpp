@@ -2,6 +2,7 @@
 #include <fastrt/error.hpp>
 #include <fastrt/scene.hpp>
 
+#include <array>
 #include <utility>
 
 namespace fastrt {
@@ -13,22 +14,37 @@ std::uint32_t checked_id(std::size_t id, const char* what) {
   return static_cast<std::uint32_t>(id);
 }
 
-void check_mesh(std::size_t vertex_count, std::span<const std::uint32_t> indices, std::size_t normal_count) {
+void check_count(std::size_t count, std::size_t vertex_count, const char* what) {
+  if (count != 0 && count != vertex_count)
+    throw InputError("a mesh has " + std::to_string(count) + ' ' + what + " for " +
+                     std::to_string(vertex_count) + " vertices");
+}
+
+void check_indices(std::size_t vertex_count, std::span<const std::uint32_t> indices) {
   if (indices.size() % 3 != 0)
     throw InputError("a mesh has " + std::to_string(indices.size()) +
                      " indices, which is no multiple of three");
-  if (normal_count != 0 && normal_count != vertex_count)
-    throw InputError("a mesh has " + std::to_string(normal_count) + " normals for " +
-                     std::to_string(vertex_count) + " vertices");
   for (std::size_t i = 0; i < indices.size(); ++i)
     if (indices[i] >= vertex_count)
       throw InputError("index " + std::to_string(i) + " of a mesh refers to vertex " +
                        std::to_string(indices[i]) + ", but there are " + std::to_string(vertex_count));
 }
 
-// The n columns of triangles made so far: as long as v0, without normals.
-void begin_normals(TriangleColumns& triangles, std::size_t count) {
-  for (auto* column : {&triangles.n0, &triangles.n1, &triangles.n2}) column->resize(count, no_index);
+using IndexColumns = std::array<Column<std::uint32_t>*, 3>;
+
+// Columns that are empty while no triangle has any: as long as the triangles so far, without indices.
+void begin_columns(const IndexColumns& columns, std::size_t triangle_count) {
+  for (auto* column : columns)
+    if (column->empty()) column->resize(triangle_count, no_index);
+}
+
+// The mesh's own indices from `first` on, or none if it has no such values; nothing where no mesh has.
+void append_optional(const IndexColumns& columns, std::size_t triangle_count, bool present,
+                     std::uint32_t first, std::span<const std::uint32_t> indices) {
+  if (present) begin_columns(columns, triangle_count);
+  if (!present && columns[0]->empty()) return;
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    columns[i % 3]->push_back(present ? first + indices[i] : no_index);
 }
 
 } // namespace
@@ -39,31 +55,45 @@ std::uint32_t SceneBuilder::add_material(Material material) {
   return id;
 }
 
+std::uint32_t SceneBuilder::add_texture(Texture texture) {
+  const std::uint32_t id = checked_id(desc_.textures.size(), "textures");
+  desc_.textures.push_back(std::move(texture));
+  return id;
+}
+
 std::uint32_t SceneBuilder::add_mesh(std::span<const Vec3> positions, std::span<const std::uint32_t> indices,
-                                     std::uint32_t material, std::span<const Vec3> normals,
-                                     std::string name) {
-  check_mesh(positions.size(), indices, normals.size());
+                                     std::uint32_t material, std::span<const Vec3> normals, std::string name,
+                                     std::span<const Vec2> uvs, std::span<const Vec3> colors) {
+  check_count(normals.size(), positions.size(), "normals");
+  check_count(uvs.size(), positions.size(), "texture coordinates");
+  check_count(colors.size(), positions.size(), "colours");
+  check_indices(positions.size(), indices);
   const std::uint32_t object = checked_id(desc_.object_names.size(), "objects");
   const std::uint32_t first_position = checked_id(desc_.positions.size(), "vertices");
   const std::uint32_t first_normal = checked_id(desc_.normals.size(), "normals");
+  const std::uint32_t first_uv = checked_id(desc_.uvs.size(), "texture coordinates");
   checked_id(desc_.positions.size() + positions.size(), "vertices");
 
   desc_.object_names.push_back(std::move(name));
   for (const Vec3& position : positions) desc_.positions.push_back(position);
   for (const Vec3& normal : normals) desc_.normals.push_back(normal);
+  for (const Vec2& uv : uvs) desc_.uvs.x.push_back(uv.x), desc_.uvs.y.push_back(uv.y);
+  if (!colors.empty() || desc_.colors.size() != 0) {
+    while (desc_.colors.size() < first_position) desc_.colors.push_back(Vec3(1.0F));
+    for (const Vec3& color : colors) desc_.colors.push_back(color);
+    while (desc_.colors.size() < desc_.positions.size()) desc_.colors.push_back(Vec3(1.0F));
+  }
   TriangleColumns& triangles = desc_.triangles;
-  if (!normals.empty() && triangles.n0.empty()) begin_normals(triangles, triangles.size());
-  const bool has_normal_columns = !normals.empty() || !triangles.n0.empty();
+  const std::size_t before = triangles.size();
+  append_optional({&triangles.n0, &triangles.n1, &triangles.n2}, before, !normals.empty(), first_normal,
+                  indices);
+  append_optional({&triangles.t0, &triangles.t1, &triangles.t2}, before, !uvs.empty(), first_uv, indices);
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     triangles.v0.push_back(first_position + indices[i]);
     triangles.v1.push_back(first_position + indices[i + 1]);
     triangles.v2.push_back(first_position + indices[i + 2]);
     triangles.material.push_back(material);
     triangles.object.push_back(object);
-    if (!has_normal_columns) continue;
-    triangles.n0.push_back(normals.empty() ? no_index : first_normal + indices[i]);
-    triangles.n1.push_back(normals.empty() ? no_index : first_normal + indices[i + 1]);
-    triangles.n2.push_back(normals.empty() ? no_index : first_normal + indices[i + 2]);
   }
   return object;
 }

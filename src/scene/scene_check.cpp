@@ -133,8 +133,13 @@ void check_scene(const SceneDesc& desc) {
     throw InputError("the texture coordinate columns differ in length");
   check_finite(desc.uvs.x, "texture coordinate", "u");
   check_finite(desc.uvs.y, "texture coordinate", "v");
+  check_finite(desc.colors, "vertex colour");
+  if (desc.colors.size() != 0 && desc.colors.size() != desc.positions.size())
+    throw InputError("there are " + std::to_string(desc.colors.size()) + " vertex colours for " +
+                     std::to_string(desc.positions.size()) + " vertices");
   check_triangles(desc);
   check_spheres(desc);
+  check_textures(desc);
   check_materials(desc);
   check_lights(desc);
 }

@@ -12,6 +12,7 @@ namespace fastrt {
 void check_scene(const SceneDesc& desc);
 
 // The parts of it.
+void check_textures(const SceneDesc& desc);
 void check_materials(const SceneDesc& desc);
 void check_lights(const SceneDesc& desc);
 

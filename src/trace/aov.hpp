@@ -62,7 +62,10 @@ FASTRT_INLINE void record_hit(const TileJob& job, const PathBatch& rays, const T
   if (to.uv != nullptr)
     texture_coordinates(scene, primitive, scratch.aov.u[i], scratch.aov.v[i], to.uv + 2 * at);
   const MaterialRow& row = scene.materials[s.material[i]];
-  put3(to.albedo, at, row.diffuse[0], row.diffuse[1], row.diffuse[2]);
+  if (row.textures != nullptr)
+    put3(to.albedo, at, s.diffuse_r[i], s.diffuse_g[i], s.diffuse_b[i]);
+  else
+    put3(to.albedo, at, row.diffuse[0], row.diffuse[1], row.diffuse[2]);
 }
 
 // The first surfaces of a tile. Lights have been gathered.

@@ -40,6 +40,7 @@ FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, PathBatch& ra
     F(0.0F).store_aligned(rays.t_min + i);
     store3(broadcast3<F>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
     Ints<widest>(-1).store_aligned(rays.exclude + i);
+    F(0.0F).store_aligned(rays.width + i);
     for (auto& medium : rays.media) Ints<widest>(-1).store_aligned(medium + i);
   }
   for (int i = 0; i < batch_size; ++i) {

@@ -5,7 +5,7 @@
 
 #include "src/kernels/batch_queries.hpp"
 #include "src/simd/shared_math.hpp"
-#include "src/trace/surface.hpp"
+#include "src/trace/textures.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -49,11 +49,14 @@ FASTRT_INLINE void begin_local_light(const ShadingView& scene, std::uint32_t bit
   PathV local = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
   std::uint32_t& shaded = s.shaded[i / widest];
   shaded = 0;
-  for_each_material(
-      scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t same) {
-        local = select(mask, broadcast3<PathF>(row.ambient) * broadcast3<PathF>(scene.ambient), local);
-        if (row.unlit == 0) shaded |= same;
-      });
+  for_each_material(scene, s.material + i, bits,
+                    [&](const MaterialRow& row, const PathM& mask, std::uint32_t same) {
+                      const PathV ka = row.textures != nullptr
+                                           ? load3<PathF>(s.ambient_r + i, s.ambient_g + i, s.ambient_b + i)
+                                           : broadcast3<PathF>(row.ambient);
+                      local = select(mask, ka * broadcast3<PathF>(scene.ambient), local);
+                      if (row.unlit == 0) shaded |= same;
+                    });
   store3(local, s.local_r + i, s.local_g + i, s.local_b + i);
 }
 
@@ -116,15 +119,19 @@ FASTRT_INLINE const MaterialRow& material_of(const ShadingView& scene, std::int3
 
 // One surface on the way of shadow ray i: takes what it holds back. Returns whether the ray goes on behind
 // it.
-FASTRT_INLINE bool pass_surface(const ShadingView& scene, const HitBatch& hits, int i, LightBatch& light) {
+FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
+                                LightBatch& light) {
   const MaterialRow& row = material_of(scene, hits.primitive[i]);
   if (row.has_transmit == 0) {
     light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
     return false;
   }
-  light.visible_r[i] = light.visible_r[i] * row.transmit[0];
-  light.visible_g[i] = light.visible_g[i] * row.transmit[1];
-  light.visible_b[i] = light.visible_b[i] * row.transmit[2];
+  Row3 transmit{row.transmit[0], row.transmit[1], row.transmit[2]};
+  if (row.textures != nullptr && row.textures->opacity != nullptr)
+    transmit = transmit_at(scene, row, rays, hits, i);
+  light.visible_r[i] = light.visible_r[i] * transmit.x;
+  light.visible_g[i] = light.visible_g[i] * transmit.y;
+  light.visible_b[i] = light.visible_b[i] * transmit.z;
   return light.visible_r[i] != 0.0F || light.visible_g[i] != 0.0F || light.visible_b[i] != 0.0F;
 }
 
@@ -138,7 +145,7 @@ FASTRT_INLINE void trace_coloured_shadows(const SceneView& scene, RayBatch& rays
     find_closest_hits(scene.geometry, rays, hits);
     going_on = false;
     for (int i = 0; i < rays.count; ++i) {
-      if (hits.primitive[i] >= 0 && pass_surface(scene.shading, hits, i, light)) {
+      if (hits.primitive[i] >= 0 && pass_surface(scene.shading, rays, hits, i, light)) {
         rays.t_min[i] = hits.t[i];
         going_on = true;
       } else {
@@ -158,14 +165,19 @@ FASTRT_INLINE void add_light(const ShadingView& scene, const LightRow& light, co
   PathV reflected = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
   for_each_material(
       scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t) {
-        PathV sum = broadcast3<PathF>(row.diffuse) * cosine;
+        const bool varies = row.textures != nullptr;
+        const PathV kd = varies ? load3<PathF>(s.diffuse_r + i, s.diffuse_g + i, s.diffuse_b + i)
+                                : broadcast3<PathF>(row.diffuse);
+        const PathV ks = varies ? load3<PathF>(s.specular_r + i, s.specular_g + i, s.specular_b + i)
+                                : broadcast3<PathF>(row.specular);
+        PathV sum = kd * cosine;
         PathF sp = zero;
         if (row.has_specular != 0) {
           const PathF x = row.blinn != 0 ? dot(normal, normalize(to_light + viewer))
                                          : dot(viewer, normal * (PathF(2.0F) * cosine) - to_light);
           sp = simd::select(x > zero, shared_pow<BatchOps<widest>>(x, PathF(row.shininess)), zero);
         }
-        sum = sum + broadcast3<PathF>(row.specular) * sp;
+        sum = sum + ks * sp;
         reflected = select(mask, sum, reflected);
       });
   const PathV visible = load3<PathF>(seen.visible_r + i, seen.visible_g + i, seen.visible_b + i);

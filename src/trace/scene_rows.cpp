@@ -36,16 +36,25 @@ MaterialRow row_of(const Material& material) {
   row.has_mirror = any_not_zero(material.mirror) || material.fresnel == Fresnel::schlick;
   row.has_transmit = any_positive(transmit);
   row.has_absorption = any_not_zero(material.absorption);
+  copy(material.transmission, row.transmission);
+  if (material.opacity_texture != no_texture) row.has_transmit = any_positive(material.transmission);
   if (row.has_transmit == 0) row.transmit[0] = row.transmit[1] = row.transmit[2] = 0.0F;
   return row;
 }
 
 } // namespace
 
-std::vector<MaterialRow> material_rows(const Scene& scene) {
+std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& textures) {
   std::vector<MaterialRow> rows;
   rows.reserve(scene.materials().size());
   for (const Material& material : scene.materials()) rows.push_back(row_of(material));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SurfaceTextures& t = textures.materials[i];
+    const bool any = t.ambient != nullptr || t.diffuse != nullptr || t.specular != nullptr ||
+                     t.emission != nullptr || t.opacity != nullptr || t.bump != nullptr ||
+                     t.vertex_colors != 0;
+    if (any) rows[i].textures = &t;
+  }
   return rows;
 }
 

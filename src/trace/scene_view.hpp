@@ -4,6 +4,7 @@
 #pragma once
 
 #include "src/accel/wide_node.hpp"
+#include "src/trace/texture_view.hpp"
 
 #include <cstdint>
 
@@ -41,6 +42,8 @@ struct MaterialRow {
   float shininess, opacity, ior;
   std::uint32_t blinn, fresnel, thin, unlit;
   std::uint32_t has_specular, has_mirror, has_transmit, has_absorption;
+  const SurfaceTextures* textures; // null: the same everywhere
+  float transmission[3];           // Kt
 };
 
 struct LightRow {
@@ -57,10 +60,11 @@ struct LightRow {
 struct ShadingView {
   const float *position_x, *position_y, *position_z;
   const float *normal_x, *normal_y, *normal_z;
+  const float *uv_x, *uv_y;                 // null when no triangle has any, with t0..t2
+  const float *color_x, *color_y, *color_z; // null when there are none
   const std::uint32_t *v0, *v1, *v2;
   const std::uint32_t *n0, *n1, *n2;
-  const float *uv_x, *uv_y;          // null when no triangle has texture coordinates
-  const std::uint32_t *t0, *t1, *t2; // likewise
+  const std::uint32_t *t0, *t1, *t2;
   const float *sphere_x, *sphere_y, *sphere_z, *sphere_radius;
   const std::uint32_t *triangle_material, *sphere_material;
   const std::uint32_t *triangle_object, *sphere_object;
@@ -69,6 +73,7 @@ struct ShadingView {
   std::uint32_t triangle_count, sphere_count, light_count;
   std::uint32_t has_transmission; // some material lets light through
   std::uint32_t has_absorption;
+  std::uint32_t has_textures; // some material has
   float ambient[3], background[3];
 };
 

@@ -64,13 +64,14 @@ FASTRT_INLINE PathV mirror_direction(const SurfaceAngles& a) {
 }
 
 FASTRT_INLINE SecondaryLanes secondary_lanes(const MaterialRow& row, const SurfaceAngles& a,
-                                             const PathF& ior_before, const PathF& ior_after) {
+                                             const PathV& transmit, const PathF& ior_before,
+                                             const PathF& ior_after) {
   const PathF zero(0.0F), one(1.0F);
   SecondaryLanes out;
   out.mirror = mirror_direction(a);
   out.mirror_weight = broadcast3<PathF>(row.mirror);
   out.transmitted = a.incident;
-  out.transmitted_weight = broadcast3<PathF>(row.transmit);
+  out.transmitted_weight = transmit;
   const bool bends = row.has_transmit != 0 && row.thin == 0;
   const PathF eta_i = bends ? ior_before : one;
   const PathF eta_t = bends ? ior_after : PathF(row.ior);
@@ -102,6 +103,17 @@ FASTRT_INLINE SecondaryLanes secondary_lanes(const MaterialRow& row, const Surfa
   return out;
 }
 
+// (1 - g) * Kt.
+FASTRT_INLINE PathV transmit_of(const MaterialRow& row, const SurfaceBatch& s, int i) {
+  if (row.has_transmit == 0 || row.textures == nullptr) return broadcast3<PathF>(row.transmit);
+  return broadcast3<PathF>(row.transmission) * (PathF(1.0F) - PathF::load_aligned(s.opacity + i));
+}
+
+// Columns of a PathBatch that not every scene needs.
+struct KeptColumns {
+  bool media, width;
+};
+
 // One packet's worth of new rays, before the ones worth tracing are picked.
 struct NewRays {
   alignas(64) float origin[3][widest], dir[3][widest], weight[3][widest];
@@ -111,7 +123,7 @@ FASTRT_INLINE void store_lanes(const PathV& v, float (*to)[widest]) { store3(v, 
 
 // Appends the lanes in `bits` to `out`. after: null where the media stay as they are.
 FASTRT_INLINE void append_rays(const NewRays& rays, const PathBatch& parent, const SurfaceBatch& s,
-                               bool keep_media, const MediaLanes* after, int i, std::uint32_t bits,
+                               const KeptColumns& keep, const MediaLanes* after, int i, std::uint32_t bits,
                                PathBatch& out) {
   int count = out.count;
   for (; bits != 0; bits &= bits - 1, ++count) {
@@ -129,7 +141,8 @@ FASTRT_INLINE void append_rays(const NewRays& rays, const PathBatch& parent, con
     out.t_max[count] = __builtin_inff();
     out.exclude[count] = s.planar[i + lane];
     out.pixel[count] = parent.pixel[i + lane];
-    if (!keep_media) continue;
+    if (keep.width) out.width[count] = s.width[i + lane];
+    if (!keep.media) continue;
     for (int k = 0; k < max_media; ++k)
       out.media[k][count] = after != nullptr ? after->after[k][lane] : parent.media[k][i + lane];
   }
@@ -146,7 +159,7 @@ FASTRT_INLINE std::uint32_t worth_tracing(const PathV& weight, float min_contrib
 FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, const SurfaceBatch& s,
                                  const MaterialRow& row, std::uint32_t bits, int i, PathBatch& reflected,
                                  PathBatch& refracted) {
-  const bool keep_media = job.scene->shading.has_transmission != 0;
+  const KeptColumns keep{job.scene->shading.has_transmission != 0, job.scene->shading.has_textures != 0};
   MediaLanes media{};
   const bool bends = row.has_transmit != 0 && row.thin == 0;
   if (bends)
@@ -155,8 +168,9 @@ FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, cons
       cross_surface(job.scene->shading, rays, s.material[i + lane], i, lane, media);
     }
   const SurfaceAngles angles = surface_angles(s, i);
-  const SecondaryLanes lanes = secondary_lanes(row, angles, PathF::load_aligned(media.ior_before),
-                                               PathF::load_aligned(media.ior_after));
+  const SecondaryLanes lanes =
+      secondary_lanes(row, angles, transmit_of(row, s, i), PathF::load_aligned(media.ior_before),
+                      PathF::load_aligned(media.ior_after));
   const PathV weight = load3<PathF>(rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
   const PathV point = load_point(s, i);
   const PathF offset = PathF::load_aligned(s.magnitude + i) * PathF(offset_share);
@@ -166,7 +180,7 @@ FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, cons
     store_lanes(point + angles.geometric * offset, next.origin);
     store_lanes(lanes.mirror, next.dir);
     store_lanes(mirror_weight, next.weight);
-    append_rays(next, rays, s, keep_media, nullptr, i, worth, reflected);
+    append_rays(next, rays, s, keep, nullptr, i, worth, reflected);
   }
   const PathV transmitted_weight = weight * lanes.transmitted_weight;
   if (const std::uint32_t worth = worth_tracing(transmitted_weight, job.min_contribution) & bits;
@@ -174,7 +188,7 @@ FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, cons
     store_lanes(point + angles.geometric * negate(offset), next.origin);
     store_lanes(lanes.transmitted, next.dir);
     store_lanes(transmitted_weight, next.weight);
-    append_rays(next, rays, s, keep_media, bends ? &media : nullptr, i, worth, refracted);
+    append_rays(next, rays, s, keep, bends ? &media : nullptr, i, worth, refracted);
   }
 }
 

@@ -18,6 +18,7 @@ struct alignas(64) PathBatch : RayBatch {
   std::int32_t media[max_media]
                     [batch_size]; // materials, innermost first; -1: none. Kept when the scene refracts.
   std::int32_t pixel[batch_size]; // place in the tile's order
+  float width[batch_size];        // of the ray's footprint where it starts. Kept when the scene has textures.
   int depth;
 };
 
@@ -29,6 +30,13 @@ struct alignas(64) SurfaceBatch {
   float viewer_x[batch_size], viewer_y[batch_size], viewer_z[batch_size];          // c
   float magnitude[batch_size];                                                     // M
   float local_r[batch_size], local_g[batch_size], local_b[batch_size];             // L
+  // Of materials with textures alone: their terms at the point, and the footprint's width.
+  float ambient_r[batch_size], ambient_g[batch_size], ambient_b[batch_size];
+  float diffuse_r[batch_size], diffuse_g[batch_size], diffuse_b[batch_size];
+  float specular_r[batch_size], specular_g[batch_size], specular_b[batch_size];
+  float emission_r[batch_size], emission_g[batch_size], emission_b[batch_size];
+  float opacity[batch_size];
+  float width[batch_size];
   std::int32_t material[batch_size];
   std::int32_t planar[batch_size];      // the primitive, where a secondary ray must exclude it; else -1
   std::uint32_t shaded[batch_size / 4]; // per packet: bits of the rays whose surfaces answer light
@@ -74,6 +82,7 @@ struct TileScratch {
 struct TileJob {
   const SceneView* scene;
   float eye[3], corner[3], du[3], dv[3]; // CameraFrame
+  float spread;                          // how much a footprint widens per unit of length
   int x, y;                              // the tile's upper left pixel
   int width, height;                     // of the frame
   int samples;

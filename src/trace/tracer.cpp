@@ -60,6 +60,9 @@ void fill_columns(const Scene& scene, ShadingView& view) {
     view.t1 = desc.triangles.t1.data();
     view.t2 = desc.triangles.t2.data();
   }
+  view.color_x = desc.colors.x.data();
+  view.color_y = desc.colors.y.data();
+  view.color_z = desc.colors.z.data();
   view.sphere_x = desc.spheres.x.data();
   view.sphere_y = desc.spheres.y.data();
   view.sphere_z = desc.spheres.z.data();
@@ -81,6 +84,7 @@ void fill_shading_view(Tracer::Parts& parts) {
   view.light_count = static_cast<std::uint32_t>(parts.lights.size());
   view.has_transmission = parts.scene.has_transmission();
   // Where nothing lets light through no ray is ever inside anything, and rays' media are not kept.
+  for (const MaterialRow& row : parts.materials) view.has_textures |= row.textures != nullptr ? 1U : 0U;
   for (const MaterialRow& row : parts.materials)
     view.has_absorption |= view.has_transmission != 0 ? row.has_absorption : 0U;
   for (int c = 0; c < 3; ++c) {
@@ -130,7 +134,8 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   parts.stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fill_stats(parts, tree);
   parts.nodes = std::move(tree.nodes);
-  parts.materials = material_rows(parts.scene);
+  parts.textures = texture_rows(parts.scene);
+  parts.materials = material_rows(parts.scene, parts.textures);
   parts.lights = light_rows(parts.scene);
   fill_geometry_view(parts, tree);
   fill_shading_view(parts);

@@ -14,6 +14,13 @@
 
 namespace fastrt {
 
+// The scene's textures as rows, which point into one another and into the scene.
+struct TextureRows {
+  std::vector<TextureLevel> levels;
+  std::vector<TextureRow> rows;           // as Scene::textures()
+  std::vector<SurfaceTextures> materials; // as Scene::materials()
+};
+
 struct Tracer::Parts {
   Scene scene;
   Isa isa = Isa::scalar;
@@ -22,6 +29,7 @@ struct Tracer::Parts {
   Column<SphereBlock> sphere_blocks;
   std::vector<MaterialRow> materials;
   std::vector<LightRow> lights;
+  TextureRows textures;
   SceneView view{};
   BvhStats stats;
   const KernelTable* kernels = nullptr;  // null for Isa::scalar
@@ -31,7 +39,8 @@ struct Tracer::Parts {
 };
 
 // The rows that shading reads, from the scene's materials and lights.
-std::vector<MaterialRow> material_rows(const Scene& scene);
+std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& textures);
+TextureRows texture_rows(const Scene& scene);
 std::vector<LightRow> light_rows(const Scene& scene);
 
 // The leaf blocks in the tree's order. slots: primitive ids, block_size a block, -1 where a block is not

@@ -59,15 +59,22 @@ FASTRT_INLINE PathV emitted_light(const ShadingView& scene, const SurfaceBatch& 
   const PathV local = load3<PathF>(s.local_r + i, s.local_g + i, s.local_b + i);
   for_each_material(
       scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t) {
-        const PathV reflected = row.unlit != 0 ? broadcast3<PathF>(row.diffuse) : local * PathF(row.opacity);
-        light = select(mask, broadcast3<PathF>(row.emission) + reflected, light);
+        const bool varies = row.textures != nullptr;
+        const PathV kd = varies ? load3<PathF>(s.diffuse_r + i, s.diffuse_g + i, s.diffuse_b + i)
+                                : broadcast3<PathF>(row.diffuse);
+        const PathV ke = varies ? load3<PathF>(s.emission_r + i, s.emission_g + i, s.emission_b + i)
+                                : broadcast3<PathF>(row.emission);
+        const PathF opacity = varies ? PathF::load_aligned(s.opacity + i) : PathF(row.opacity);
+        const PathV reflected = row.unlit != 0 ? kd : local * opacity;
+        light = select(mask, ke + reflected, light);
       });
   return light;
 }
 
 // What the batch's rays see: the background where they miss, and the surfaces that lighting and secondary
 // rays need.
-static void see_surfaces(const SceneView& scene, PathBatch& rays, TileScratch& scratch) noexcept {
+static void see_surfaces(const TileJob& job, PathBatch& rays, TileScratch& scratch) noexcept {
+  const SceneView& scene = *job.scene;
   const PathV background = broadcast3<PathF>(scene.shading.background);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);
@@ -77,6 +84,8 @@ static void see_surfaces(const SceneView& scene, PathBatch& rays, TileScratch& s
     scratch.surface.shaded[i / widest] = 0;
     if (bits == 0) continue;
     find_surfaces(scene.shading, rays, scratch.hits, i, scratch.surface);
+    if (scene.shading.has_textures != 0)
+      texture_surfaces(scene.shading, rays, scratch.hits, job.spread, bits, i, scratch.surface);
     if (scene.shading.has_absorption != 0) fade(scene.shading, rays, scratch.hits, bits, i);
     begin_local_light(scene.shading, bits, i, scratch.surface);
   }
@@ -104,7 +113,7 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
                         TileRayCounts& counts) noexcept {
   const SceneView& scene = *job.scene;
   find_closest_hits(scene.geometry, rays, scratch.hits);
-  see_surfaces(scene, rays, scratch);
+  see_surfaces(job, rays, scratch);
   counts.shadow += gather_light(scene, rays, scratch);
   if (scratch.recording) record_batch(job, rays, scratch);
   for (int i = 0; i < rays.count; i += widest) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that OpenImageIO writes: finds its module and calls it.
-#include "src/write/oiio/module.hpp"
+// The formats that OpenImageIO writes: calls its module.
+#include "src/oiio/module/module.hpp"
 
+#include "src/oiio/open.hpp"
 #include "src/scene/printable.hpp"
 #include "src/scene/threads.hpp"
 #include "src/write/formats.hpp"
@@ -9,63 +10,18 @@
 
 #include <fastrt/error.hpp>
 
-#include <dlfcn.h>
-
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 
 namespace fastrt {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-// The folders to look into, first come first served. FASTRT_MODULE_PATH, if set, is the only one.
-std::vector<fs::path> module_folders() {
-  if (const char* path = secure_getenv("FASTRT_MODULE_PATH"); path != nullptr && *path != '\0') return {path};
-  std::vector<fs::path> folders;
-  Dl_info info{};
-  std::error_code error;
-  fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (dladdr(reinterpret_cast<const void*>(&module_folders), &info) != 0 && info.dli_fname != nullptr) {
-    // A shared library that holds this code; the program's own name may be relative to a folder left since.
-    const fs::path holder = fs::canonical(info.dli_fname, error);
-    if (!error) program = holder;
-  }
-  fs::path folder = program.parent_path();
-  folders.push_back(folder);
-  for (int level = 0; level < 5 && !folder.empty(); ++level) {
-    folders.push_back(folder / FASTRT_LIBDIR / "fastrt");
-    if (!folder.has_relative_path()) break;
-    folder = folder.parent_path();
-  }
-  folders.emplace_back(FASTRT_MODULE_DIR);
-  return folders;
-}
-
-[[noreturn]] void refuse(const std::string& why) {
-  throw OutputError("cannot load the module for this picture format: " + printable(why));
-}
-
-OiioEncode* load_module() {
-  std::string searched;
-  for (const fs::path& folder : module_folders()) {
-    const fs::path path = folder / oiio_module_file;
-    std::error_code error;
-    if (!fs::exists(path, error)) {
-      searched += ' ' + folder.string();
-      continue;
-    }
-    // Local and lazy: its 250 libraries neither meet the program's symbols nor get bound before they are
-    // used.
-    void* module = dlopen(path.c_str(), RTLD_LOCAL | RTLD_LAZY);
-    if (module == nullptr) refuse(dlerror());
-    void* function = dlsym(module, oiio_encode_name);
-    if (function == nullptr) refuse(path.string() + " is of another version");
-    return reinterpret_cast<OiioEncode*>(function);
-  }
-  refuse(std::string(oiio_module_file) + " is in none of" + searched);
+OiioEncode* find_encoder() {
+  const OiioFunction found = find_oiio_function(oiio_encode_name);
+  if (found.function == nullptr)
+    throw OutputError("cannot load the module for this picture format: " + printable(found.fault));
+  return reinterpret_cast<OiioEncode*>(found.function);
 }
 
 struct Free {
@@ -80,7 +36,7 @@ void check_limits(const std::string& format, const Picture& picture) {
 }
 
 Bytes encode(const OiioPicture& request) {
-  static OiioEncode* const encode_picture = load_module();
+  static OiioEncode* const encode_picture = find_encoder();
   OiioResult result{};
   const bool done = encode_picture(&request, &result) != 0;
   const std::unique_ptr<unsigned char, Free> bytes(result.bytes);

@@ -136,14 +136,68 @@ TEST(MtlMapping, OddMaterialsAreWarnedAbout) {
   EXPECT_EQ(twice.materials[0].diffuse, Vec3(0.1F));
 }
 
-TEST(MtlMapping, MapsAreKept) {
-  const Material m = map_one("map_Kd a\nmap_Ka b\nmap_Ks c\nmap_Ke d\nmap_d e\nbump f");
-  EXPECT_EQ(m.diffuse_map, "a");
-  EXPECT_EQ(m.ambient_map, "b");
-  EXPECT_EQ(m.specular_map, "c");
-  EXPECT_EQ(m.emission_map, "d");
-  EXPECT_EQ(m.opacity_map, "e");
-  EXPECT_EQ(m.bump_map, "f");
+// The material of one record whose maps have been read.
+struct Textured {
+  Material material;
+  std::vector<Texture> textures;
+};
+
+Textured map_textured(const std::string& statements, bool alpha = false) {
+  EventLog log;
+  auto records = parse_mtl("newmtl a\n" + statements, {}, log);
+  const std::vector<std::uint8_t> pixel{1, 2, 3, static_cast<std::uint8_t>(alpha ? 4 : 255)};
+  const auto image = std::make_shared<const Image>(1, 1, std::span(pixel), false);
+  MtlRecord& r = records.at(0);
+  for (MtlMap* map : {&r.map_ka, &r.map_kd, &r.map_ks, &r.map_ke, &r.map_d, &r.bump})
+    if (!map->empty() && map->name != "broken")
+      map->image = image;
+    else
+      map->failed = !map->empty();
+  MaterialSet set;
+  map_materials(records, false, set, log);
+  return {set.materials.at(0), set.textures};
+}
+
+TEST(MtlMapping, MapsBecomeTextures) {
+  const auto [m, textures] = map_textured("map_Kd -s 2 3 -o 4 5 a\nmap_Ka -clamp on b\nmap_Ks -mm 0.5 2 "
+                                          "c\nmap_Ke d\nmap_d -imfchan g e\nnorm -bm 3 f");
+  EXPECT_EQ(m.diffuse, Vec3(1.0F));
+  EXPECT_EQ(m.specular, Vec3(1.0F));
+  EXPECT_EQ(m.emission, Vec3(1.0F));
+  ASSERT_EQ(textures.size(), 6U);
+  const Texture& diffuse = textures[m.diffuse_texture];
+  EXPECT_EQ(diffuse.name, "a");
+  EXPECT_EQ(diffuse.scale, Vec2(2, 3));
+  EXPECT_EQ(diffuse.offset, Vec2(4, 5));
+  EXPECT_TRUE(textures[m.ambient_texture].clamp);
+  EXPECT_EQ(textures[m.specular_texture].base, 0.5F);
+  EXPECT_EQ(textures[m.specular_texture].gain, 2.0F);
+  EXPECT_EQ(textures[m.emission_texture].name, "d");
+  EXPECT_EQ(textures[m.opacity_texture].channel, glm::vec4(0, 1, 0, 0));
+  EXPECT_TRUE(m.thin);
+  EXPECT_EQ(textures[m.bump_texture].name, "f");
+  EXPECT_TRUE(m.bump_is_normal_map);
+  EXPECT_EQ(m.bump_scale, 3.0F);
+}
+
+TEST(MtlMapping, OneColourMapIsForAmbientLightToo) {
+  const Material m = map_textured("map_Kd a").material;
+  EXPECT_EQ(m.ambient_texture, m.diffuse_texture);
+  EXPECT_EQ(m.opacity_texture, no_texture);
+  EXPECT_FALSE(m.thin);
+}
+
+TEST(MtlMapping, CutOutsTakeTheAlphaWhereThereIsOne) {
+  const auto grey = map_textured("map_d a"), alpha = map_textured("map_d a", true);
+  EXPECT_EQ(grey.textures[0].channel.w, 0.0F);
+  EXPECT_EQ(alpha.textures[0].channel, glm::vec4(0, 0, 0, 1));
+}
+
+TEST(MtlMapping, BrokenMapsShow) {
+  const auto [m, textures] = map_textured("map_Kd broken\nmap_Ks broken\nmap_d broken");
+  EXPECT_EQ(textures[m.diffuse_texture].kind, TextureKind::checker);
+  EXPECT_EQ(m.specular_texture, no_texture);
+  EXPECT_EQ(m.opacity_texture, no_texture);
 }
 
 } // namespace

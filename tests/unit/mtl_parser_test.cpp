@@ -137,21 +137,39 @@ TEST(MtlParser, MapsHaveOptionsAndNamesWithBlanks) {
                {"map_Kd -o 1 a.png", "a.png"},
                {"map_Kd -o 1 2 a.png", "a.png"},
                {"map_Kd -mm 0 1 -blendu off -texres 512 -imfchan l a.png", "a.png"},
-               {"map_Kd -bm 0.5 -boost 2 -cc on -t 1 1 1 -type sphere a.png", "a.png"},
+               {"map_Kd -bm 0.5 -boost 2 -cc on -texres 1 -type sphere a.png", "a.png"},
                {"map_kd a.png", "a.png"},
                {"MAP_KD -S 1 1 1 2.png", "2.png"}};
-  for (const auto& [text, name] : cases) EXPECT_EQ(only(text).map_kd, name) << text;
+  for (const auto& [text, name] : cases) EXPECT_EQ(only(text).map_kd.name, name) << text;
   const MtlRecord m = only("map_Ka a\nmap_Ks s\nmap_Ke e\nmap_d d\nbump -bm 1 b");
-  EXPECT_EQ(m.map_ka + m.map_ks + m.map_ke + m.map_d + m.bump, "asedb");
-  EXPECT_EQ(only("bump a\nmap_Bump b").bump, "b");
-  EXPECT_EQ(only("norm n").bump, "n");
+  EXPECT_EQ(m.map_ka.name + m.map_ks.name + m.map_ke.name + m.map_d.name + m.bump.name, "asedb");
+  EXPECT_EQ(only("bump a\nmap_Bump b").bump.name, "b");
+  EXPECT_EQ(only("norm n").bump.name, "n");
+}
+
+TEST(MtlParser, MapOptionsAreKept) {
+  const MtlMap map =
+      only("map_d -s 2 -o 0.5 0.25 -clamp on -mm 0.125 3 -imfchan b -bm 4 -colorspace linear a.png").map_d;
+  EXPECT_EQ(map.scale, Vec2(2, 1));
+  EXPECT_EQ(map.offset_uv, Vec2(0.5F, 0.25F));
+  EXPECT_TRUE(map.clamp);
+  EXPECT_EQ(map.base, 0.125F);
+  EXPECT_EQ(map.gain, 3.0F);
+  EXPECT_EQ(map.channel, 'b');
+  EXPECT_EQ(map.bump, 4.0F);
+  EXPECT_TRUE(map.is_linear);
+  EXPECT_TRUE(only("norm n").bump.is_normal_map);
+  EXPECT_FALSE(only("norm n\nbump b").bump.is_normal_map);
+  const MtlMap again = only("map_Kd -s 2 2 -clamp on a.png\nmap_Kd b.png").map_kd;
+  EXPECT_EQ(again.scale, Vec2(1, 1));
+  EXPECT_FALSE(again.clamp);
 }
 
 TEST(MtlParser, OddMapsAreWarnedAbout) {
   const Parsed parsed =
       parse("newmtl a\nmap_Kd -s 1e30 1 1 t.png\nmap_Ks -what x.png\nmap_Ka -s 1 1 1\nmap_Ke\n");
-  EXPECT_EQ(parsed.records[0].map_kd, "t.png");
-  EXPECT_EQ(parsed.records[0].map_ks, "x.png");
+  EXPECT_EQ(parsed.records[0].map_kd.name, "t.png");
+  EXPECT_EQ(parsed.records[0].map_ks.name, "x.png");
   ASSERT_EQ(parsed.warnings.size(), 4U);
   EXPECT_EQ(parsed.warnings[0], "t.mtl:2:11: texture option '1e30' is out of range");
   EXPECT_EQ(parsed.warnings[1], "t.mtl:3:8: unknown texture option '-what' skipped");

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/load/texture_file.hpp"
+
+#include "src/load/source.hpp"
+#include "src/load/text.hpp"
+#include "src/oiio/module/module.hpp"
+#include "src/oiio/open.hpp"
+#include "src/scene/printable.hpp"
+
+#include <fastrt/error.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fastrt {
+
+namespace {
+
+// Of a file, and of a picture's pixels.
+constexpr std::size_t most_bytes = std::size_t{1} << 30U;
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
+// OpenImageIO's name of the format that a file begins like; "" if it is none that is read here. TGA has no
+// such mark.
+const char* format_of(std::string_view bytes, const std::filesystem::path& path) {
+  using namespace std::string_view_literals;
+  static constexpr std::array<std::pair<std::string_view, const char*>, 10> marks = {
+      {{"\x89PNG\r\n\x1A\n"sv, "png"},
+       {"\xFF\xD8\xFF"sv, "jpeg"},
+       {"\x76\x2F\x31\x01"sv, "openexr"},
+       {"#?RADIANCE"sv, "hdr"},
+       {"#?RGBE"sv, "hdr"},
+       {"BM"sv, "bmp"},
+       {"II*\0"sv, "tiff"},
+       {"MM\0*"sv, "tiff"},
+       {"II+\0"sv, "tiff"},
+       {"MM\0+"sv, "tiff"}}};
+  for (const auto& [mark, name] : marks)
+    if (bytes.starts_with(mark)) return name;
+  const bool is_pnm = bytes.size() > 2 && bytes[0] == 'P' &&
+                      std::string_view("123456fF").find(bytes[1]) != std::string_view::npos &&
+                      std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+  if (is_pnm) return "pnm";
+  return lower_case(path.extension().string()) == ".tga" ? "targa" : "";
+}
+
+// Whether a PNG's chunks reach its end: libpng would print where they break off.
+bool is_whole_png(std::string_view bytes) {
+  for (std::size_t at = 8; bytes.size() - at >= 12;) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size = size << 8U | static_cast<unsigned char>(bytes[at + i]);
+    if (bytes.substr(at + 4, 4) == "IEND") return true;
+    if (bytes.size() - at - 12 < size) return false;
+    at += size + 12;
+  }
+  return false;
+}
+
+std::string contents_of(const std::filesystem::path& path) {
+  const Source source = Source::open(path);
+  if (source.size() > most_bytes) throw InputError("it is larger than 1 GiB");
+  std::string bytes(source.size(), '\0');
+  source.read(0, bytes.data(), bytes.size());
+  return bytes;
+}
+
+// From a 16-bit code's share of 1 to linear light.
+float linear_of(float code) {
+  return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
+}
+
+Image image_of(const OiioTexture& read, TextureCode code) {
+  const std::size_t count = 4 * static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
+  if (read.is_float == 0)
+    return {read.width, read.height, std::span(static_cast<const std::uint8_t*>(read.rgba), count),
+            code == TextureCode::color};
+  auto* const values = static_cast<float*>(read.rgba);
+  if (read.is_linear == 0 && code == TextureCode::color)
+    for (std::size_t i = 0; i < count; ++i)
+      if (i % 4 != 3) values[i] = linear_of(values[i]);
+  return {read.width, read.height, std::span<const float>(values, count)};
+}
+
+} // namespace
+
+TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
+  try {
+    const std::string bytes = contents_of(path);
+    const std::string format = format_of(bytes, path);
+    if (format.empty()) return {nullptr, "is no PNG, JPEG, EXR, HDR, TGA, PNM, BMP or TIFF picture"};
+    if (format == "png" && !is_whole_png(bytes)) return {nullptr, "can't be read: the file ends early"};
+    const OiioFunction decode = find_oiio_function(oiio_decode_name);
+    if (decode.function == nullptr) return {nullptr, "can't be read: " + printable(decode.fault)};
+    const OiioFile file{format.c_str(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                        max_image_side, most_bytes};
+    OiioTexture read{};
+    const bool done = reinterpret_cast<OiioDecode*>(decode.function)(&file, &read) != 0;
+    const std::unique_ptr<void, Free> rgba(read.rgba);
+    if (!done) return {nullptr, "can't be read: " + printable(read.error)};
+    const std::string fault = read.is_damaged != 0 ? "is damaged: " + printable(read.error) : "";
+    return {std::make_shared<const Image>(image_of(read, code)), fault};
+  } catch (const InputError& error) {
+    return {nullptr, std::string("can't be read: ") + error.what()};
+  }
+}
+
+} // namespace fastrt

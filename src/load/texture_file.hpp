@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastrt/texture.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace fastrt {
+
+// What the codes of a picture file stand for.
+enum class TextureCode {
+  color, // sRGB, unless the file holds linear numbers
+  data,  // numbers as they are: heights, normals, opacities
+};
+
+struct TextureFile {
+  std::shared_ptr<const Image> image; // null if it can't be used
+  std::string fault;                  // "" if there is nothing to say; of damage too
+};
+
+// Reads a picture: PNG, JPEG, EXR, HDR, TGA, PNM, BMP or TIFF, told apart by their first bytes. Opens regular
+// files alone. Throws nothing but std::bad_alloc.
+TextureFile read_texture(const std::filesystem::path& path, TextureCode code);
+
+} // namespace fastrt

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/oiio/module/module.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+
+namespace {
+
+using fastrt::OiioFile;
+using fastrt::OiioPicture;
+using fastrt::OiioResult;
+using fastrt::OiioTexture;
+
+template <class Result>
+int fail(Result& result, const std::string& why) {
+  const std::string text = why.empty() ? std::string("OpenImageIO gives no reason") : why;
+  const std::size_t count = std::min(text.size(), sizeof result.error - 1);
+  std::memcpy(result.error, text.data(), count);
+  result.error[count] = '\0';
+  std::replace(result.error, result.error + count, '\n', ' ');
+  return 0;
+}
+
+OIIO::ImageSpec spec_of(const OiioPicture& picture) {
+  const std::string format = picture.format;
+  OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
+                       picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  for (int c = 0; picture.channel_names != nullptr && c < picture.channels; ++c) {
+    spec.channelnames[static_cast<std::size_t>(c)] = picture.channel_names[c];
+    spec.channelformats.push_back(picture.is_integer[c] != 0 ? OIIO::TypeDesc::UINT32
+                                                             : OIIO::TypeDesc::FLOAT);
+  }
+  spec.attribute("Software", "fastrt");
+  spec.attribute("oiio:ColorSpace", picture.is_float != 0 ? "Linear" : "sRGB");
+  if (format == "jpg" || format == "jpeg") {
+    spec.attribute("Compression", "jpeg:95");
+    spec.attribute("jpeg:subsampling", "4:4:4"); // renders have sharp edges in colour too
+  }
+  if (format == "exr") spec.attribute("Compression", "zip");
+  // Else the EXR writer adds the time, and equal pictures would differ in their bytes. It leaves out a
+  // number.
+  spec.attribute("DateTime", 0);
+  return spec;
+}
+
+int encode(const OiioPicture& picture, OiioResult& result) {
+  OIIO::attribute("debug", 0); // it would print
+  OIIO::attribute("threads", picture.threads);
+  OIIO::attribute("exr_threads", picture.threads);
+  const std::string name = std::string("picture.") + picture.format;
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+  if (!output) return fail(result, OIIO::geterror());
+  if (output->supports("ioproxy") == 0) return fail(result, "this format can't be written to memory");
+  OIIO::Filesystem::IOVecOutput memory;
+  if (!output->set_ioproxy(&memory) || !output->open(name, spec_of(picture)))
+    return fail(result, output->geterror());
+  const OIIO::TypeDesc type = picture.channel_names != nullptr ? OIIO::TypeDesc::UNKNOWN // as they are
+                              : picture.is_float != 0          ? OIIO::TypeDesc::FLOAT
+                                                               : OIIO::TypeDesc::UINT8;
+  // close() can succeed after a failed write_image.
+  if (!output->write_image(type, picture.pixels)) return fail(result, output->geterror());
+  if (!output->close() || output->has_error()) return fail(result, output->geterror());
+  output.reset();
+
+  const std::vector<unsigned char>& bytes = memory.buffer();
+  if (bytes.empty()) return fail(result, "nothing was written");
+  result.bytes = static_cast<unsigned char*>(std::malloc(bytes.size()));
+  if (result.bytes == nullptr) return fail(result, "out of memory");
+  std::memcpy(result.bytes, bytes.data(), bytes.size());
+  result.count = bytes.size();
+  return 1;
+}
+
+// "" if a picture like this may be read, else why not: looked at before any memory is taken for it.
+std::string fault_of(const OIIO::ImageSpec& spec, bool is_float, const OiioFile& file) {
+  const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
+  if (spec.width < 1 || spec.height < 1) return "it has " + size;
+  const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  if (spec.width > file.most_side || spec.height > file.most_side ||
+      pixels > file.most_bytes / (is_float ? 4 * sizeof(float) : 4))
+    return size + " are too many";
+  if (spec.deep) return "deep pictures are not supported";
+  if (spec.depth > 1) return "volumes are not supported";
+  if (spec.nchannels < 1 || spec.nchannels > 64)
+    return std::to_string(spec.nchannels) + " channels are not supported";
+  return {};
+}
+
+// One channel is a grey, two are a grey and alpha; what follows the fourth is left out.
+template <class T>
+void spread_channels(const T* from, int channels, std::size_t pixels, T opaque, T* rgba) {
+  for (std::size_t i = 0; i < pixels; ++i, from += channels, rgba += 4) {
+    const bool is_grey = channels < 3;
+    rgba[0] = from[0];
+    rgba[1] = from[is_grey ? 0 : 1];
+    rgba[2] = from[is_grey ? 0 : 2];
+    rgba[3] = channels == 2 || channels == 4 ? from[channels - 1] : opaque;
+  }
+}
+
+template <class T>
+int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, OiioTexture& texture) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const int channels = std::min(spec.nchannels, 4);
+  const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  const std::unique_ptr<T[]> read(new T[pixels * static_cast<std::size_t>(channels)]());
+  if (!input.read_image(0, 0, 0, channels, type, read.get())) {
+    texture.is_damaged = 1;
+    fail(texture, input.geterror());
+  }
+  T* const rgba = static_cast<T*>(std::malloc(4 * pixels * sizeof(T)));
+  if (rgba == nullptr) return fail(texture, "out of memory");
+  spread_channels(read.get(), channels, pixels, opaque, rgba);
+  texture.rgba = rgba;
+  texture.width = spec.width;
+  texture.height = spec.height;
+  return 1;
+}
+
+int decode(const OiioFile& file, OiioTexture& texture) {
+  OIIO::attribute("debug", 0);
+  OIIO::attribute("threads", 1); // the caller reads several files at once
+  OIIO::attribute("exr_threads", 1);
+  const std::string format = file.format;
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+  if (!input) return fail(texture, OIIO::geterror());
+  OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file.bytes), file.count);
+  OIIO::ImageSpec wish, spec;
+  wish.attribute("oiio:UnassociatedAlpha", 1); // colours as they are, not times alpha
+  if (!input->set_ioproxy(&memory) || !input->open("texture." + format, spec, wish))
+    return fail(texture, input->geterror());
+  texture.is_linear = spec.format.is_floating_point() || format == "openexr" || format == "hdr";
+  texture.is_float = texture.is_linear != 0 || spec.format.size() > 1;
+  if (const std::string fault = fault_of(spec, texture.is_float != 0, file); !fault.empty())
+    return fail(texture, fault);
+  if (texture.is_float != 0) return read_pixels<float>(*input, OIIO::TypeDesc::FLOAT, 1.0F, texture);
+  return read_pixels<unsigned char>(*input, OIIO::TypeDesc::UINT8, 255, texture);
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_2(const OiioPicture* picture,
+                                                                           OiioResult* result) {
+  try {
+    return encode(*picture, *result);
+  } catch (const std::exception& error) {
+    return fail(*result, error.what());
+  } catch (...) {
+    return fail(*result, "an unknown failure");
+  }
+}
+
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_decode_1(const OiioFile* file,
+                                                                           OiioTexture* texture) {
+  try {
+    return decode(*file, *texture);
+  } catch (const std::exception& error) {
+    return fail(*texture, error.what());
+  } catch (...) {
+    return fail(*texture, "an unknown failure");
+  }
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions of the module fastrt_oiio, in plain types: OpenImageIO costs 0.2 s and 129 MB to load, so the
+// library finds it with dlopen when a picture needs it, and nothing else knows of it.
+#pragma once
+
+#include <cstddef>
+
+namespace fastrt {
+
+inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
+inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_2"; // the number changes with the types
+
+struct OiioPicture {
+  const char* format; // an extension without the dot
+  const void* pixels; // `channels` * width * height values, rows from the top
+  int is_float;       // values of four bytes, otherwise bytes
+  int width, height;
+  int threads;
+  int channels;
+  // Of channels that are more than red, green and blue (else null): their names, and which hold unsigned
+  // integers and no floats.
+  const char* const* channel_names;
+  const unsigned char* is_integer;
+};
+
+struct OiioResult {
+  unsigned char* bytes; // made by malloc; the caller frees it
+  std::size_t count;
+  char error[256];
+};
+
+// Returns 1, or 0 with `error` set. Throws nothing.
+using OiioEncode = int(const OiioPicture* picture, OiioResult* result);
+
+inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";
+
+// A whole file in memory.
+struct OiioFile {
+  const char* format; // OpenImageIO's name of it
+  const unsigned char* bytes;
+  std::size_t count;
+  int most_side;          // refuse pictures that are wider or higher
+  std::size_t most_bytes; // and those whose pixels take more
+};
+
+struct OiioTexture {
+  void* rgba;    // made by malloc, the caller frees it: four floats or bytes a pixel, rows from the top
+  int is_float;  // floats, otherwise bytes
+  int is_linear; // the file holds linear numbers, not codes
+  int width, height;
+  int is_damaged;  // not all of it could be read; what is missing is black
+  char error[256]; // of damage too
+};
+
+// Returns 1, or 0 with `error` set. Throws nothing.
+using OiioDecode = int(const OiioFile* file, OiioTexture* texture);
+
+} // namespace fastrt

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture files of every format that is read, and broken ones.
+#include "src/load/texture_file.hpp"
+#include "tests/unit/obj_test_support.hpp"
+
+#include <fastrt/write.hpp>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+namespace fastrt::test {
+namespace {
+
+// Red, green; blue, white: rows from the top.
+const std::vector<float> four_pixels{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
+
+void expect_four_pixels(const TextureFile& file, float tolerance, const std::string& what) {
+  ASSERT_NE(file.image, nullptr) << what << ": " << file.fault;
+  EXPECT_EQ(file.fault, "") << what;
+  ASSERT_EQ(file.image->width(), 2) << what;
+  ASSERT_EQ(file.image->height(), 2) << what;
+  for (int i = 0; i < 4; ++i) {
+    const glm::vec4 pixel = file.image->pixel(0, i % 2, i / 2);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(pixel[c], four_pixels[static_cast<std::size_t>(3 * i + c)], tolerance) << what << ' ' << i;
+    EXPECT_EQ(pixel.a, 1.0F) << what;
+  }
+}
+
+std::string text_of(const std::vector<unsigned char>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+TEST(TextureFile, EveryFormatThatIsWritten) {
+  const TemporaryFolder folder;
+  for (const std::string format : {"png", "ppm", "pfm", "exr", "hdr", "tif"}) {
+    const auto path = folder.write("t." + format, text_of(encode_image(format, four_pixels, 2, 2, 1)));
+    expect_four_pixels(read_texture(path, TextureCode::color), 0.01F, format);
+  }
+  // Blocks of 8 x 8 pixels make JPEG good at plain ones.
+  const std::vector<float> grey(3 * 64, 0.5F);
+  const TextureFile jpeg =
+      read_texture(folder.write("t.jpg", text_of(encode_image("jpg", grey, 8, 8, 1))), TextureCode::color);
+  ASSERT_NE(jpeg.image, nullptr) << jpeg.fault;
+  EXPECT_NEAR(jpeg.image->pixel(0, 3, 3).g, 0.5F, 0.01F);
+}
+
+TEST(TextureFile, TargaAndBitmap) {
+  const TemporaryFolder folder;
+  std::string targa("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\x20", 18);
+  targa += std::string("\0\0\xFF\0\xFF\0\xFF\0\0\xFF\xFF\xFF", 12);
+  expect_four_pixels(read_texture(folder.write("t.tga", targa), TextureCode::color), 0, "tga");
+  std::string bitmap("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 30);
+  bitmap += std::string(24, '\0');
+  bitmap += std::string("\xFF\0\0\xFF\xFF\xFF\0\0\0\0\xFF\0\xFF\0\0\0", 16);
+  expect_four_pixels(read_texture(folder.write("t.bmp", bitmap), TextureCode::color), 0, "bmp");
+}
+
+// The name's extension does not matter where the contents tell.
+TEST(TextureFile, ContentsTellTheFormat) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("t.png", text_of(encode_image("ppm", four_pixels, 2, 2, 1)));
+  expect_four_pixels(read_texture(path, TextureCode::color), 0, "ppm");
+}
+
+TEST(TextureFile, DataIsNotDecoded) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("t.pgm", std::string("P5 1 1 255\n\x80", 12));
+  EXPECT_EQ(read_texture(path, TextureCode::data).image->pixel(0, 0, 0).g, 128.0F / 255);
+  EXPECT_NEAR(read_texture(path, TextureCode::color).image->pixel(0, 0, 0).g, 0.2159, 1e-4);
+}
+
+TEST(TextureFile, BrokenFilesAreRefused) {
+  const TemporaryFolder folder;
+  const std::string png = text_of(encode_image("png", four_pixels, 2, 2, 1));
+  std::string large_png = png;
+  large_png[17] = large_png[21] = 1; // 65538 x 65538
+  const std::pair<const char*, std::string> cases[] = {
+      {"empty.png", ""},
+      {"text.png", "this is no picture"},
+      {"head.png", png.substr(0, 20)},
+      {"large.png", large_png},
+      {"large.ppm", "P6 2000000000 2000000000 255\n"},
+      {"wide.ppm", "P6 16385 1 255\n" + std::string(3 * 16385, 'x')},
+      {"large.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 100000\n"},
+      {"none.ppm", "P6 0 0 255\n"},
+      {"short.exr", "\x76\x2F\x31\x01"},
+      {"short.jpg", "\xFF\xD8\xFF\xE0"},
+      {"short.tif", std::string("II*\0\xFF\xFF\xFF\xFF", 8)}};
+  for (const auto& [name, bytes] : cases) {
+    const TextureFile file = read_texture(folder.write(name, bytes), TextureCode::color);
+    EXPECT_EQ(file.image, nullptr) << name;
+    EXPECT_NE(file.fault, "") << name;
+  }
+}
+
+// What is there is used, and the rest is said to be missing; nothing ends the program.
+TEST(TextureFile, TruncationAnywhereDoesNoHarm) {
+  const TemporaryFolder folder;
+  for (const std::string format : {"png", "jpg", "exr", "tif", "hdr", "ppm"}) {
+    const std::string bytes = text_of(encode_image(format, std::vector<float>(3 * 256, 0.25F), 16, 16, 1));
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 37) {
+      const TextureFile file =
+          read_texture(folder.write("t." + format, bytes.substr(0, size)), TextureCode::color);
+      EXPECT_TRUE(file.image != nullptr || !file.fault.empty()) << format << ' ' << size;
+    }
+  }
+}
+
+TEST(TextureFile, OnlyRegularFilesAreOpened) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder.path() / "fifo.png").c_str(), 0600), 0);
+  for (const auto& path : {folder.path() / "fifo.png", folder.path(), folder.path() / "missing.png",
+                           std::filesystem::path("/dev/zero")}) {
+    const TextureFile file = read_texture(path, TextureCode::color);
+    EXPECT_EQ(file.image, nullptr);
+    EXPECT_NE(file.fault.find("can't be read"), std::string::npos) << file.fault;
+  }
+}
+
+} // namespace
+} // namespace fastrt::test
