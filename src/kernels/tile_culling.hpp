@@ -98,10 +98,63 @@ FASTRT_INLINE void aim_view(TileView& view) {
   view.sides[3] = extent_axis(f, tilted(f.v, f.w, -1.0F, view.y1));
 }
 
-// A node's children in the batch's projection; bits: those that the batch can meet.
-struct ChildRectangles {
-  alignas(32) float x0[wide_children], x1[wide_children], y0[wide_children], y1[wide_children],
-      near[wide_children];
+// Groups that a rectangle touches and that still look as far as `near`.
+FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, float x1, float y0, float y1,
+                                           float near) {
+  std::uint32_t bits = 0;
+  for (int g = 0; g < batch_groups; g += widest) {
+    const PacketM touched = (PacketF::load_aligned(groups.x0 + g) <= PacketF(x1)) &
+                            (PacketF::load_aligned(groups.x1 + g) >= PacketF(x0)) &
+                            (PacketF::load_aligned(groups.y0 + g) <= PacketF(y1)) &
+                            (PacketF::load_aligned(groups.y1 + g) >= PacketF(y0)) &
+                            (PacketF::load_aligned(groups.far + g) >= PacketF(near));
+    bits |= to_bits(touched) << g;
+  }
+  return bits;
+}
+
+// With this many groups or fewer, each is held against all rectangles at once; else each rectangle against
+// all groups.
+inline constexpr int few_groups = 4;
+
+// The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
+// `lanes`; 0 elsewhere. Returns the lanes that touch any.
+template <class F>
+FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles<F>& r, std::uint32_t lanes,
+                                         std::uint32_t groups, std::uint32_t* touched) {
+  constexpr int width = width_of<F>;
+  if (__builtin_popcount(groups) <= few_groups) {
+    IntsOf<F> bits(0);
+    std::uint32_t some = 0;
+    for (; groups != 0; groups &= groups - 1) {
+      const int g = __builtin_ctz(groups);
+      const MaskOf<F> met = (r.x0 <= F(all.x1[g])) & (r.x1 >= F(all.x0[g])) & (r.y0 <= F(all.y1[g])) &
+                            (r.y1 >= F(all.y0[g])) & (r.near <= F(all.far[g]));
+      bits = select_ints<F>(met, bits | IntsOf<F>(static_cast<std::int32_t>(1U << g)), bits);
+      some |= to_bits(met);
+    }
+    bits.store_unaligned(reinterpret_cast<std::int32_t*>(touched));
+    return some & lanes;
+  }
+  alignas(32) float x0[width], x1[width], y0[width], y1[width], near[width];
+  r.x0.store_aligned(x0);
+  r.x1.store_aligned(x1);
+  r.y0.store_aligned(y0);
+  r.y1.store_aligned(y1);
+  r.near.store_aligned(near);
+  std::uint32_t some = 0;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int i = __builtin_ctz(lanes);
+    touched[i] = touched_groups(all, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
+    some |= touched[i] != 0 ? 1U << i : 0U;
+  }
+  return some;
+}
+
+// A node's children as the batch sees them; bits: those that some group touches, and which groups do.
+struct TouchedChildren {
+  alignas(32) float near[wide_children];
+  std::uint32_t groups[wide_children];
   std::uint32_t bits;
 };
 
@@ -115,7 +168,8 @@ FASTRT_INLINE std::uint32_t within_sides(const TileView& view, const float* colu
   return to_bits(within);
 }
 
-FASTRT_INLINE void project_children(const TileView& view, const WideNode& node, ChildRectangles& out) {
+FASTRT_INLINE void touch_children(const TileView& view, const WideNode& node, std::uint32_t groups,
+                                  TouchedChildren& out) {
   using N = Floats<node_lanes>;
   const N padding(view.frame.padding);
   out.bits = 0;
@@ -130,28 +184,9 @@ FASTRT_INLINE void project_children(const TileView& view, const WideNode& node, 
     std::uint32_t bits = to_bits(met);
     if (view.frame.perspective && (to_bits(w.low <= N(0.0F)) & bits) != 0)
       bits &= within_sides(view, columns);
-    out.bits |= bits << half;
-    r.x0.store_aligned(out.x0 + half);
-    r.x1.store_aligned(out.x1 + half);
-    r.y0.store_aligned(out.y0 + half);
-    r.y1.store_aligned(out.y1 + half);
     r.near.store_aligned(out.near + half);
+    if (bits != 0) out.bits |= touch_groups(view.groups, r, bits, groups, out.groups + half) << half;
   }
-}
-
-// Groups that a rectangle touches and that still look as far as `near`.
-FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, float x1, float y0, float y1,
-                                           float near) {
-  std::uint32_t bits = 0;
-  for (int g = 0; g < batch_groups; g += widest) {
-    const PacketM touched = (PacketF::load_aligned(groups.x0 + g) <= PacketF(x1)) &
-                            (PacketF::load_aligned(groups.x1 + g) >= PacketF(x0)) &
-                            (PacketF::load_aligned(groups.y0 + g) <= PacketF(y1)) &
-                            (PacketF::load_aligned(groups.y1 + g) >= PacketF(y0)) &
-                            (PacketF::load_aligned(groups.far + g) >= PacketF(near));
-    bits |= to_bits(touched) << g;
-  }
-  return bits;
 }
 
 // Groups that still look as far as `near`.

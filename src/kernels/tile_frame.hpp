@@ -46,6 +46,12 @@ FASTRT_INLINE V3<F> broadcast3(const V3<float>& v) {
   return {F(v.x), F(v.y), F(v.z)};
 }
 
+// For culling alone.
+template <class F>
+FASTRT_INLINE F cull_dot(const V3<F>& a, const V3<F>& b) {
+  return cull_mul_add(a.z, b.z, cull_mul_add(a.y, b.y, a.x * b.x));
+}
+
 FASTRT_INLINE V3<float> ray_dir(const RayBatch& rays, int i) {
   return {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]};
 }

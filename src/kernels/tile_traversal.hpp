@@ -19,63 +19,55 @@ struct TileEntry {
 template <bool any>
 struct TileTraversal {
   TileTraversal(const GeometryView& s, const RayBatch& r, HitBatch& h, const LiveRays& l)
-      : scene(s), rays(r), hits(h), live(l) {}
+      : scene(s), rays(r), hits(h) {
+    for (int g = 0; g < batch_groups; ++g) open[g] = l.bits[g];
+  }
 
   const GeometryView& scene;
   const RayBatch& rays;
   HitBatch& hits;
-  const LiveRays& live;
+  std::uint32_t open[batch_groups]; // the rays that still look for a hit: bit l of word g is ray 16 g + l
   TilePoints points;
   TileView view;
 };
 
-// A triangle that covers more groups than this by its rectangle is held against their corners by its edges;
-// one that covers fewer against their rays.
+// A triangle that covers more groups than this by its rectangle is first held against their corners by its
+// edges.
 inline constexpr int many_groups = 3;
 
-// After a hit: how far the group's rays still look. A group whose rays all have a hit looks nowhere if any
-// will do.
+// After hits of the rays in `bits` of group g: how far the group still looks. Rays that have a hit look no
+// more if any will do.
 template <bool any>
-FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g) {
+FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g, std::uint32_t bits) {
   if constexpr (any) {
-    std::uint32_t open = 0;
-    for (int k = 0; k < group_size; k += widest)
-      open |= to_bits(simd::bool_cast(PacketI::load_aligned(tile.hits.primitive + g * group_size + k) <
-                                      PacketI(0)))
-              << k;
-    if ((open & tile.live.bits[g]) == 0) tile.view.groups.far[g] = -__builtin_inff();
+    tile.open[g] &= ~bits;
+    if (tile.open[g] == 0) tile.view.groups.far[g] = -__builtin_inff();
   } else {
-    tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.live.bits[g], g);
+    tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.open[g], g);
   }
 }
 
-// Rays that have a hit are no points any more.
-FASTRT_INLINE void close_rays(TilePoints& points, const PacketI& primitive, int i) {
-  const PacketM hit = simd::bool_cast(primitive >= PacketI(0));
-  select(hit, PacketF(__builtin_inff()), PacketF::load_aligned(points.x + i)).store_aligned(points.x + i);
-}
-
-// One primitive against the rays of group g. meet(dir, origin, t_min) gives the lanes that it hits and their
-// t.
+// One primitive against the rays of group g in `bits`. meet(ray) gives the lanes that it hits and their t.
 template <bool any, class Meet>
-FASTRT_INLINE void meet_group(TileTraversal<any>& tile, int g, std::int32_t primitive, const Meet& meet) {
-  bool changed = false;
+FASTRT_INLINE void meet_group(TileTraversal<any>& tile, int g, std::uint32_t bits, std::int32_t primitive,
+                              const Meet& meet) {
+  std::uint32_t changed = 0;
   for (int k = 0; k < group_size; k += widest) {
+    if (widest < group_size && (bits >> k & ((1U << (widest - 1)) * 2U - 1U)) == 0) continue;
     const int i = g * group_size + k;
     const auto [hit, t] = meet(i);
-    const PacketM counted = hit & from_bits<widest>(tile.live.bits[g] >> k);
+    const PacketM counted = hit & from_bits<widest>(bits >> k);
     if (to_bits(counted) == 0) continue;
     PacketF best_t = PacketF::load_aligned(tile.hits.t + i);
     PacketI best_primitive = PacketI::load_aligned(tile.hits.primitive + i);
-    if (keep_closest(best_t, best_primitive, PacketI::load_aligned(tile.rays.exclude + i), counted, t,
-                     primitive) == 0)
-      continue;
+    const std::uint32_t kept = keep_closest(
+        best_t, best_primitive, PacketI::load_aligned(tile.rays.exclude + i), counted, t, primitive);
+    if (kept == 0) continue;
     best_t.store_aligned(tile.hits.t + i);
     best_primitive.store_aligned(tile.hits.primitive + i);
-    if constexpr (any) close_rays(tile.points, best_primitive, i);
-    changed = true;
+    changed |= kept << k;
   }
-  if (changed) shorten_group(tile, g);
+  if (changed != 0) shorten_group(tile, g, changed);
 }
 
 struct MetLanes {
@@ -114,35 +106,49 @@ FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
   return broadcast3<PacketF>(s.columns[column][i], s.columns[column + 1][i], s.columns[column + 2][i]);
 }
 
+// The rays of triangle i's groups that its edges let through: act(group, rays).
+template <bool any, class Act>
+FASTRT_INLINE void for_each_group(const TileTraversal<any>& tile, const EdgeLines& lines, int i,
+                                  std::uint32_t groups, const Act& act) {
+  if (__builtin_popcount(groups) > many_groups)
+    groups = groups_inside_edges(tile.view.groups, lines, i, groups);
+  for (; groups != 0; groups &= groups - 1) {
+    const int g = __builtin_ctz(groups);
+    const std::uint32_t rays = rays_inside_edges(tile.points, lines, i, g) & tile.open[g];
+    if (rays != 0) act(g, rays);
+  }
+}
+
 // Triangle i of a run against the groups in `groups`, all rays from one origin.
 template <bool any>
-FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, int i,
-                                    std::int32_t primitive, std::uint32_t groups) {
-  const V3<PacketF> slack = spread(block, 19, i);
-  const TriangleSetup<PacketF> setup{spread(block, 0, i),
-                                     spread(block, 3, i),
-                                     spread(block, 6, i),
-                                     spread(block, 9, i),
-                                     PacketF(block.columns[12][i]),
-                                     slack.x,
-                                     slack.y,
-                                     slack.z};
-  const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
-  for (; groups != 0; groups &= groups - 1)
-    meet_group(tile, __builtin_ctz(groups), primitive, [&](int ray) -> MetLanes {
+FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, const EdgeLines& lines,
+                                    int i, std::int32_t primitive, std::uint32_t groups) {
+  for_each_group(tile, lines, i, groups, [&](int g, std::uint32_t rays) {
+    const V3<PacketF> slack = spread(block, 19, i);
+    const TriangleSetup<PacketF> setup{spread(block, 0, i),
+                                       spread(block, 3, i),
+                                       spread(block, 6, i),
+                                       spread(block, 9, i),
+                                       PacketF(block.columns[12][i]),
+                                       slack.x,
+                                       slack.y,
+                                       slack.z};
+    const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
+    meet_group(tile, g, rays, primitive, [&](int ray) -> MetLanes {
       const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray), reach);
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
     });
+  });
 }
 
 // The same for parallel rays, each with its own origin.
 template <bool any>
-FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run, int i,
-                                 std::uint32_t groups) {
-  const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, i), v1 = spread_vertex<PacketF>(run, 1, i),
-                    v2 = spread_vertex<PacketF>(run, 2, i);
-  for (; groups != 0; groups &= groups - 1)
-    meet_group(tile, __builtin_ctz(groups), run.primitive(i), [&](int ray) -> MetLanes {
+FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run,
+                                 const EdgeLines& lines, int i, std::uint32_t groups) {
+  for_each_group(tile, lines, i, groups, [&](int g, std::uint32_t rays) {
+    const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, i), v1 = spread_vertex<PacketF>(run, 1, i),
+                      v2 = spread_vertex<PacketF>(run, 2, i);
+    meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
       const V3<PacketF> origin = load_origin(tile.rays, ray);
       const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
       const TriangleLanes<PacketF> lanes =
@@ -150,66 +156,43 @@ FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<Triang
                              [&] { return reach_of(a, b, c, largest(origin)); });
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
     });
+  });
 }
 
-struct Sieve {
-  bool some; // some triangle touches some group
-  bool many; // some triangle touches more than many_groups
-};
-
-// The groups that each of the run's triangles touches by its rectangle, and if these are few, with a ray in
-// it.
-template <bool any>
-FASTRT_INLINE Sieve sieve_rectangles(const TileTraversal<any>& tile, const Rectangles<LeafF>& r, int lanes,
-                                     std::uint32_t groups, std::uint32_t* touched) {
-  alignas(32) float x0[leaf_lanes], x1[leaf_lanes], y0[leaf_lanes], y1[leaf_lanes], near[leaf_lanes];
-  r.x0.store_aligned(x0);
-  r.x1.store_aligned(x1);
-  r.y0.store_aligned(y0);
-  r.y1.store_aligned(y1);
-  r.near.store_aligned(near);
-  Sieve sieve{false, false};
-  for (int i = 0; i < lanes; ++i) {
-    touched[i] = touched_groups(tile.view.groups, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
-    if (__builtin_popcount(touched[i]) > many_groups)
-      sieve.many = true;
-    else if (touched[i] != 0)
-      touched[i] = groups_with_rays(tile.points, x0[i], x1[i], y0[i], y1[i], touched[i]);
-    sieve.some = sieve.some || touched[i] != 0;
-  }
-  return sieve;
-}
-
-template <bool any>
-FASTRT_INLINE std::uint32_t sieve_edges(const TileTraversal<any>& tile, const EdgeLines& lines, int i,
-                                        std::uint32_t touched) {
-  if (__builtin_popcount(touched) <= many_groups) return touched;
-  return groups_inside_edges(tile.view.groups, lines, i, touched);
+// All lanes of a run that hold primitives.
+template <class Block>
+FASTRT_INLINE std::uint32_t lanes_of(const BlockRun<Block>& run) {
+  return (1U << run.lanes) - 1U;
 }
 
 template <bool any>
 FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run,
                             std::uint32_t groups) {
-  const V3<LeafF> origin = broadcast3<LeafF>(tile.view.frame.origin);
+  const TileFrame& f = tile.view.frame;
+  const V3<LeafF> origin = broadcast3<LeafF>(f.origin);
   const V3<LeafF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
                   c = load_vertices(run, 2) - origin;
   const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
   std::uint32_t touched[leaf_lanes];
-  const Sieve sieve = sieve_rectangles(tile, projected.bounds, run.lanes, groups, touched);
-  if (!sieve.some) return;
+  std::uint32_t some = touch_groups(tile.view.groups, projected.bounds, lanes_of(run), groups, touched);
+  if (some == 0) return;
   EdgeLines lines;
-  if (!tile.view.frame.perspective) {
-    if (sieve.many) lines_from_corners(tile.view.frame, projected, lines);
-    for (int i = 0; i < run.lanes; ++i)
-      if (touched[i] != 0) meet_parallel(tile, run, i, sieve_edges(tile, lines, i, touched[i]));
+  const TriangleReach<LeafF> reach = reach_of(a, b, c, largest(origin));
+  if (!f.perspective) {
+    lines_from_corners(f, projected, reach, lines);
+    for (; some != 0; some &= some - 1) {
+      const int i = __builtin_ctz(some);
+      meet_parallel(tile, run, lines, i, touched[i]);
+    }
     return;
   }
   const TriangleSetup<LeafF> setup = set_up_triangle(a, b, c);
-  if (sieve.many) lines_from_setup(tile.view.frame, setup, lines);
-  const BlockSetup stored = store_setup(setup, reach_of(a, b, c, largest(origin)));
-  for (int i = 0; i < run.lanes; ++i)
-    if (touched[i] != 0)
-      meet_from_origin(tile, stored, i, run.primitive(i), sieve_edges(tile, lines, i, touched[i]));
+  lines_from_setup(f, setup, reach, lines);
+  const BlockSetup stored = store_setup(setup, reach);
+  for (; some != 0; some &= some - 1) {
+    const int i = __builtin_ctz(some);
+    meet_from_origin(tile, stored, lines, i, run.primitive(i), touched[i]);
+  }
 }
 
 // The rectangles of a run's spheres: those of the boxes around them, along the frame's axes.
@@ -225,21 +208,23 @@ template <bool any>
 FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<SphereBlock>& run,
                             std::uint32_t groups) {
   std::uint32_t touched[leaf_lanes];
-  const Sieve sieve =
-      sieve_rectangles(tile, project_spheres(tile.view.frame, run), run.lanes, groups, touched);
-  if (!sieve.some) return;
-  for (int lane = 0; lane < run.lanes; ++lane) {
+  std::uint32_t some =
+      touch_groups(tile.view.groups, project_spheres(tile.view.frame, run), lanes_of(run), groups, touched);
+  for (; some != 0; some &= some - 1) {
+    const int lane = __builtin_ctz(some);
     const SphereBlock& block = run.block_of(lane);
     const int i = lane % block_size;
     const V3<PacketF> center = broadcast3<PacketF>(block.x[i], block.y[i], block.z[i]);
     const PacketF radius(block.radius[i]);
-    for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1)
-      meet_group(tile, __builtin_ctz(left), block.primitive[i], [&](int ray) -> MetLanes {
+    for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
+      const int g = __builtin_ctz(left);
+      meet_group(tile, g, tile.open[g], block.primitive[i], [&](int ray) -> MetLanes {
         const SphereLanes<PacketF> lanes =
             intersect_sphere(center, radius, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
                              PacketF::load_aligned(tile.rays.t_min + ray));
         return {lanes.hit, lanes.t};
       });
+    }
   }
 }
 
@@ -269,17 +254,14 @@ FASTRT_INLINE void prefetch_child(const GeometryView& scene, std::uint32_t child
   for (int i = 0; i < lines; ++i) __builtin_prefetch(at + 64 * i);
 }
 
-template <bool any>
-FASTRT_INLINE TileEntry* push_children(const TileTraversal<any>& tile, const WideNode& node,
-                                       const ChildRectangles& c, std::uint32_t groups, TileEntry* top) {
+// Puts the children that were touched onto the stack, the nearest on top.
+FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode& node,
+                                       const TouchedChildren& c, TileEntry* top) {
   TileEntry* const bottom = top;
   for (std::uint32_t bits = c.bits; bits != 0; bits &= bits - 1) {
     const int i = __builtin_ctz(bits);
-    const std::uint32_t touched =
-        touched_groups(tile.view.groups, c.x0[i], c.x1[i], c.y0[i], c.y1[i], c.near[i]) & groups;
-    if (touched == 0) continue;
-    prefetch_child(tile.scene, node.child[i]);
-    const TileEntry entry{node.child[i], touched, c.near[i]};
+    prefetch_child(scene, node.child[i]);
+    const TileEntry entry{node.child[i], c.groups[i], c.near[i]};
     TileEntry* place = top++;
     for (; place != bottom && place[-1].near < entry.near; --place) *place = place[-1];
     *place = entry;
@@ -292,7 +274,7 @@ FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
   TileEntry stack[max_tree_stack];
   stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff()};
   TileEntry* top = stack + 1;
-  ChildRectangles children;
+  TouchedChildren children;
   while (top != stack) {
     const TileEntry entry = *--top;
     const std::uint32_t groups = entry.groups & far_groups(tile.view.groups, entry.near);
@@ -303,8 +285,8 @@ FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
       continue;
     }
     const WideNode& node = tile.scene.nodes[entry.child];
-    project_children(tile.view, node, children);
-    top = push_children(tile, node, children, groups, top);
+    touch_children(tile.view, node, groups, children);
+    top = push_children(tile.scene, node, children, top);
   }
 }
 

@@ -178,6 +178,20 @@ FASTRT_INLINE float reduce_min(const F& value) {
   return -reduce_max(negate(value));
 }
 
+// a * b + c, rounded once where the instruction set can: for culling alone, whose margins cover either.
+template <class F>
+FASTRT_INLINE F cull_mul_add(const F& a, const F& b, const F& c) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_fmadd_ps(a.data, b.data, c.data));
+#endif
+#if defined(__FMA__)
+  if constexpr (width_of<F> == 8) return F(_mm256_fmadd_ps(a.data, b.data, c.data));
+  if constexpr (width_of<F> == 4) return F(_mm_fmadd_ps(a.data, b.data, c.data));
+#else
+  return a * b + c;
+#endif
+}
+
 // What shared_math.hpp asks of a batch.
 template <int W>
 struct BatchOps {

@@ -43,8 +43,8 @@ bool isa_available(Isa isa) noexcept {
   case Isa::sse42:
     return __builtin_cpu_supports("sse4.2") != 0;
   case Isa::avx2:
-    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
-           __builtin_cpu_supports("bmi2") != 0;
+    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
+           __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
   case Isa::avx512:
     return isa_available(Isa::avx2) && __builtin_cpu_supports("avx512f") != 0 &&
            __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&

@@ -114,6 +114,8 @@ limits() {
   expect 0 tiny.obj "${small[@]}" --max-depth 1000000000
   grep -q '^fastrt: warning: --max-depth' err || fail "no warning"
   # Not enough memory for the picture: that is said, and is no crash.
+  # A build with sanitizers reserves so much address space that it can't start under such a limit.
+  (ulimit -v 400000 && "$fastrt" --version >/dev/null 2>&1) || return 0
   (ulimit -v 400000 && expect_error 5 'memory' tiny.obj -r 8192x8190 -t 1)
 }
 
