@@ -31,6 +31,9 @@ Aabb bounds_of(const SceneDesc& desc);
 // aspect: width over height. An empty box gives the default camera.
 Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Vec3& up = {0.0F, 1.0F, 0.0F});
 
+// The view height with which an orthographic camera shows the whole box. Throws as camera_axes does.
+float orthographic_height(const Aabb& bounds, const Camera& camera, float aspect);
+
 // Light for a scene that has none: a key light with shadows, a soft fill from the camera's side without, and
 // ambient.
 void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camera);

@@ -111,6 +111,8 @@ void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::s
               options.width = size.width;
               options.height = size.height;
             });
+  add.value("--crop", "X0,Y0,X1,Y1", "Columns X0 to X1 - 1 and rows Y0 to Y1 - 1 of the picture alone",
+            [&](const std::string& name, const std::string& text) { options.crop = parse_crop(name, text); });
   add.value("--max-image-mb", "N", "Refuse pictures that take more memory than this [1024]",
             [&](const std::string& name, const std::string& text) {
               options.max_image_mb = parse_integer(name, text, 1, std::int64_t{1} << 30);
@@ -123,12 +125,17 @@ void add_sampling_options(OptionAdder& add, Options& options) {
             [&](const std::string& name, const std::string& text) {
               options.samples_per_pixel = static_cast<int>(parse_integer(name, text, 1, most_samples));
             });
-  add.value("--filter", "box|tent", "How samples make a pixel [tent]",
+  add.value(
+      "--filter", "NAME", "How samples make a pixel: box, tent, gaussian or mitchell [tent]",
+      [&](const std::string& name, const std::string& text) { options.filter = parse_filter(name, text); });
+  add.value("--adaptive", "T", "More samples where neighbours differ by more than T, 0 to 1",
             [&](const std::string& name, const std::string& text) {
-              if (text != "box" && text != "tent") {
-                throw UsageError(name + ": '" + text + "' is not box or tent");
-              }
-              options.filter = text == "box" ? PixelFilter::box : PixelFilter::tent;
+              options.adaptive = parse_length(name, text);
+              if (options.adaptive > 1) throw UsageError(name + ": '" + text + "' is greater than 1");
+            });
+  add.value("--max-spp", "N", "How many those may get [16 times --spp]",
+            [&](const std::string& name, const std::string& text) {
+              options.most_samples = static_cast<int>(parse_integer(name, text, 1, 16 * most_samples));
             });
   add.value("--seed", "N", "Another set of samples [0]",
             [&](const std::string& name, const std::string& text) {
@@ -167,6 +174,43 @@ void add_view_options(OptionAdder& add, Options& options) {
                 throw UsageError(name + ": '" + text + "' is not an angle between 0 and 180");
               }
             });
+  add.value("--ortho", "HEIGHT|auto", "Parallel rays; the picture shows HEIGHT, auto: the whole scene",
+            [&](const std::string& name, const std::string& text) {
+              options.orthographic = true;
+              options.view_height.reset();
+              if (text != "auto") options.view_height = parse_length(name, text);
+            });
+  add.value(
+      "--window", "WL,WR,WB,WT", "What the picture shows of the view plane, to the outer pixels' centres",
+      [&](const std::string& name, const std::string& text) { options.window = parse_window(name, text); });
+  add.value("--focal", "F", "How far from the eye the window is [1]",
+            [&](const std::string& name, const std::string& text) {
+              options.focal_distance = parse_length(name, text);
+            });
+  add.value("--aperture", "R", "Radius of a thin lens [0: a pinhole]; takes several samples a pixel",
+            [&](const std::string& name, const std::string& text) {
+              options.aperture_radius = text == "0" ? 0 : parse_length(name, text);
+            });
+  add.value("--focus", "D", "How far from the eye the lens is sharp [the look-at point]",
+            [&](const std::string& name, const std::string& text) {
+              options.focus_distance = parse_length(name, text);
+            });
+}
+
+// What options ask for together.
+void check_together(Options& options) {
+  if (options.crop && (options.crop->x1 > options.width || options.crop->y1 > options.height))
+    throw UsageError("--crop: it reaches beyond the picture of " + std::to_string(options.width) + "x" +
+                     std::to_string(options.height));
+  if (options.orthographic && options.aperture_radius > 0)
+    throw UsageError("--aperture: parallel rays go through no lens");
+  if (options.most_samples != 0 && options.most_samples < options.samples_per_pixel)
+    throw UsageError("--max-spp: less than --spp");
+  if (options.most_samples != 0 && options.adaptive == 0)
+    options.warnings.emplace_back("--max-spp says nothing without --adaptive");
+  if (options.aperture_radius > 0 && options.samples_per_pixel == 1 && options.adaptive == 0)
+    options.warnings.emplace_back("--aperture: one sample a pixel goes through the middle of the lens; give "
+                                  "--spp");
 }
 
 void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
@@ -258,6 +302,7 @@ Options parse_options(int argc, const char* const* argv) {
     throw UsageError(std::string(error.what()));
   }
   options.stats = stats_format(stats);
+  check_together(options);
   if (!signature.empty()) options.signature = signature == "/" ? "" : signature;
   return options;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/camera.hpp>
 #include <fastrt/light.hpp>
 #include <fastrt/math.hpp>
 #include <fastrt/render.hpp>
@@ -23,16 +24,23 @@ struct Options {
   std::optional<std::string> signature; // a file; empty: beside the picture
 
   int width = 1024, height = 768;
+  std::optional<Crop> crop;
   std::int64_t max_image_mb = 1024;
   int samples_per_pixel = 1;
   PixelFilter filter = PixelFilter::tent;
   std::uint32_t seed = 0;
+  float adaptive = 0; // 0: not
+  int most_samples = 0;
   int max_depth = 8;
   float min_contribution = 1.0F / 256;
 
   std::optional<Vec3> eye, look_at;
   Vec3 up{0.0F, 1.0F, 0.0F};
   float fov_degrees = 40.0F;
+  bool orthographic = false;
+  std::optional<float> view_height; // of an orthographic camera; empty: shows the whole scene
+  std::optional<Window> window;
+  float focal_distance = 1, aperture_radius = 0, focus_distance = 0;
   std::vector<Light> lights;
   std::optional<Vec3> ambient, background;
 

@@ -110,6 +110,50 @@ Light parse_light(std::string_view option, std::string_view text) {
   return light;
 }
 
+float parse_length(std::string_view option, std::string_view text) {
+  float value = 0;
+  if (!read_number(text, value) || value <= 0) refuse(option, text, "a number greater than 0");
+  return value;
+}
+
+Crop parse_crop(std::string_view option, std::string_view text) {
+  std::array<int, 4> sides{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (i == 3)) refuse(option, text, "four whole numbers x0,y0,x1,y1");
+    sides[i] = static_cast<int>(parse_integer(option, rest.substr(0, comma), 0, largest_side));
+    rest = i == 3 ? std::string_view() : rest.substr(comma + 1);
+  }
+  const Crop crop{sides[0], sides[1], sides[2], sides[3]};
+  if (crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
+    refuse(option, text, "a part of the picture: x0 < x1 and y0 < y1");
+  return crop;
+}
+
+Window parse_window(std::string_view option, std::string_view text) {
+  std::array<float, 4> sides{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (i == 3) || !read_number(rest.substr(0, comma), sides[i]))
+      refuse(option, text, "four numbers left,right,bottom,top");
+    rest = i == 3 ? std::string_view() : rest.substr(comma + 1);
+  }
+  const Window window{sides[0], sides[1], sides[2], sides[3]};
+  if (window.left == window.right || window.bottom == window.top)
+    refuse(option, text, "a window with an area");
+  return window;
+}
+
+PixelFilter parse_filter(std::string_view option, std::string_view text) {
+  if (text == "box") return PixelFilter::box;
+  if (text == "tent") return PixelFilter::tent;
+  if (text == "gaussian") return PixelFilter::gaussian;
+  if (text == "mitchell") return PixelFilter::mitchell;
+  refuse(option, text, "box, tent, gaussian or mitchell");
+}
+
 std::vector<Aov> parse_aovs(std::string_view option, std::string_view text) {
   std::vector<Aov> aovs;
   std::string known = "all";

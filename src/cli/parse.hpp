@@ -4,8 +4,10 @@
 #pragma once
 
 #include <fastrt/aov.hpp>
+#include <fastrt/camera.hpp>
 #include <fastrt/light.hpp>
 #include <fastrt/math.hpp>
+#include <fastrt/render.hpp>
 
 #include <cstdint>
 #include <string>
@@ -36,6 +38,18 @@ Resolution parse_resolution(std::string_view option, std::string_view text);
 
 // "point:x,y,z[:r,g,b]" or "dir:x,y,z[:r,g,b]"; dir gives the way that the light travels.
 Light parse_light(std::string_view option, std::string_view text);
+
+// A finite number above 0.
+float parse_length(std::string_view option, std::string_view text);
+
+// "x0,y0,x1,y1": whole numbers, 0 <= x0 < x1 <= 65536, likewise y.
+Crop parse_crop(std::string_view option, std::string_view text);
+
+// "wl,wr,wb,wt", with an area.
+Window parse_window(std::string_view option, std::string_view text);
+
+// "box", "tent", "gaussian" or "mitchell".
+PixelFilter parse_filter(std::string_view option, std::string_view text);
 
 // "id,depth,normal", or "all"; each kept once.
 std::vector<Aov> parse_aovs(std::string_view option, std::string_view text);

@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -56,14 +57,17 @@ int choose_threads(const Options& options) {
 // Colour, primitive id and AOVs of every pixel, twice if there are two renderings.
 void check_image_size(const Options& options) {
   std::uint64_t values = 4;
+  if (options.adaptive > 0) values += 8; // sums, counts
   for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
   const std::uint64_t pixel_bytes = values * sizeof(float) * (options.verify ? 2 : 1);
+  const int width = options.crop ? options.crop->x1 - options.crop->x0 : options.width;
+  const int height = options.crop ? options.crop->y1 - options.crop->y0 : options.height;
   const std::uint64_t bytes =
-      static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height) * pixel_bytes;
+      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes;
   if (bytes > static_cast<std::uint64_t>(options.max_image_mb) << 20U) {
-    throw LimitError("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
-                     " takes " + std::to_string((bytes + (1U << 20U) - 1) >> 20U) +
-                     " MB, more than --max-image-mb " + std::to_string(options.max_image_mb));
+    throw LimitError("a picture of " + std::to_string(width) + "x" + std::to_string(height) + " takes " +
+                     std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB, more than --max-image-mb " +
+                     std::to_string(options.max_image_mb));
   }
 }
 
@@ -87,6 +91,15 @@ Camera choose_camera(const Options& options, const Aabb& bounds) {
   if (options.eye) camera.eye = *options.eye;
   if (options.look_at) camera.look_at = *options.look_at;
   camera.up = options.up;
+  camera.window = options.window;
+  camera.focal_distance = options.focal_distance;
+  camera.aperture_radius = options.aperture_radius;
+  camera.focus_distance = options.focus_distance;
+  if (options.orthographic) {
+    camera.projection = Projection::orthographic;
+    camera.view_height =
+        options.view_height ? *options.view_height : orthographic_height(bounds, camera, aspect);
+  }
   // Throws for a view that makes no sense, before the long work.
   make_camera_frame(camera, options.width, options.height);
   return camera;
@@ -105,7 +118,10 @@ RenderSettings render_settings(const Options& options, int threads) {
   settings.height = options.height;
   settings.samples_per_pixel = options.samples_per_pixel;
   settings.filter = options.filter;
+  settings.crop = options.crop;
   settings.seed = options.seed;
+  settings.adaptive = options.adaptive;
+  settings.most_samples = options.most_samples;
   settings.max_depth = options.max_depth;
   settings.min_contribution = options.min_contribution;
   settings.aovs = aovs_to_render(options);
@@ -148,6 +164,11 @@ void describe(const Options& options, const Tracer& tracer, const Frame& frame, 
   stats.width = frame.width;
   stats.height = frame.height;
   stats.samples_per_pixel = options.samples_per_pixel;
+  if (!frame.samples.empty()) {
+    stats.most_samples = *std::max_element(frame.samples.begin(), frame.samples.end());
+    stats.mean_samples = std::accumulate(frame.samples.begin(), frame.samples.end(), 0.0) /
+                         static_cast<double>(frame.samples.size());
+  }
   stats.aovs = frame.aovs.size();
   stats.isa = tracer.isa();
   stats.triangles = tracer.scene().triangle_count();

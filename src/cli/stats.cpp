@@ -143,7 +143,10 @@ std::string summary_line(const RunStats& stats) {
   line += ": " + std::to_string(stats.width) + "x" + std::to_string(stats.height);
   if (stats.triangles != 0 || stats.spheres == 0) line += ", " + count(stats.triangles, "triangle");
   if (stats.spheres != 0) line += ", " + count(stats.spheres, "sphere");
-  line += ", " + std::to_string(stats.samples_per_pixel) + " spp, ";
+  line += ", " + std::to_string(stats.samples_per_pixel);
+  if (stats.most_samples != 0) line += " to " + std::to_string(stats.most_samples);
+  line += " spp, ";
+  if (stats.most_samples != 0) line += short_number(stats.mean_samples) + " on average, ";
   line += short_number(mega(static_cast<double>(stats.rays.total()))) + " Mrays in " +
           seconds(stats.render_seconds) + " (" + short_number(stats.mrays_per_second()) +
           " Mrays/s), total " + seconds(stats.total_seconds);
@@ -181,6 +184,10 @@ std::string stats_json(const RunStats& stats) {
   object.add("width", stats.width);
   object.add("height", stats.height);
   object.add("spp", stats.samples_per_pixel);
+  if (stats.most_samples != 0) {
+    object.add("most_spp", stats.most_samples);
+    object.add("mean_spp", stats.mean_samples);
+  }
   object.add("isa", std::string(isa_name(stats.isa)));
   object.add("threads", stats.threads);
   object.add("triangles", std::uint64_t{stats.triangles});

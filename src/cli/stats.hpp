@@ -15,6 +15,8 @@ namespace fastrt::cli {
 struct RunStats {
   std::string scene, output; // output: empty when no file was written
   int width = 0, height = 0, samples_per_pixel = 0, threads = 0;
+  int most_samples = 0; // of a pixel, where sampling was adaptive; then also
+  double mean_samples = 0;
   std::size_t aovs = 0; // that were rendered
   Isa isa = Isa::scalar;
   std::size_t triangles = 0, spheres = 0, lights = 0;

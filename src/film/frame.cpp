@@ -17,6 +17,22 @@ void check(const RenderSettings& settings) {
   if (settings.samples_per_pixel < 1)
     throw UsageError("samples per pixel must be at least 1, not " +
                      std::to_string(settings.samples_per_pixel));
+  const Crop part = part_of(settings);
+  if (part.x0 < 0 || part.y0 < 0 || part.x0 >= part.x1 || part.y0 >= part.y1 || part.x1 > settings.width ||
+      part.y1 > settings.height)
+    throw UsageError("the crop " + std::to_string(part.x0) + "," + std::to_string(part.y0) + "," +
+                     std::to_string(part.x1) + "," + std::to_string(part.y1) +
+                     " is no part of a picture of " + std::to_string(settings.width) + "x" +
+                     std::to_string(settings.height));
+  if (!(settings.adaptive >= 0.0F && settings.adaptive <= 1.0F))
+    throw UsageError("the threshold of adaptive sampling must be from 0 to 1");
+  if (settings.most_samples != 0 && settings.most_samples < settings.samples_per_pixel)
+    throw UsageError("at most " + std::to_string(settings.most_samples) + " samples are less than the " +
+                     std::to_string(settings.samples_per_pixel) + " of each pixel");
+}
+
+Crop part_of(const RenderSettings& settings) {
+  return settings.crop.value_or(Crop{0, 0, settings.width, settings.height});
 }
 
 namespace {
@@ -76,6 +92,11 @@ void FrameProgress::part_done(const RayCounts& rays) {
   rays_.refracted += rays.refracted;
   ++parts_done_;
   if (settings_->progress) settings_->progress(static_cast<double>(parts_done_) / parts_);
+}
+
+void FrameProgress::rest_is_done() {
+  const std::lock_guard lock(mutex_);
+  if (!stopped_) parts_done_ = parts_;
 }
 
 void FrameProgress::failed(std::exception_ptr error) {

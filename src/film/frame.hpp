@@ -13,6 +13,9 @@ namespace fastrt {
 // Throws UsageError for settings out of their ranges.
 void check(const RenderSettings& settings);
 
+// The part of the picture that is made, all of it without a crop.
+Crop part_of(const RenderSettings& settings);
+
 // A black frame that sees nothing, with the AOVs that are asked for.
 Frame black_frame(int width, int height, const std::vector<Aov>& aovs = {});
 
@@ -26,6 +29,8 @@ public:
   void part_done(const RayCounts& rays);
   // Keeps the first exception; finish() throws it.
   void failed(std::exception_ptr error);
+  // The parts that are left turned out to be needless.
+  void rest_is_done();
   // Fills in the frame's counts and whether it is complete.
   void finish(Frame& frame);
 

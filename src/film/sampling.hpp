@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the samples of a pixel lie. Integers until the last step, so that every path gets the same bits.
+// Where the samples of a pixel lie, on the image and on the lens: functions of (pixel, index, seed) alone, so
+// that any number of samples can be taken in any order. Integers until the last steps, and those are
+// additions, multiplications, divisions and square roots: every path gets the same bits.
 #pragma once
 
 #include <cstdint>
@@ -29,25 +31,150 @@ namespace fastrt {
   return u < 0.5F ? __builtin_sqrtf(2.0F * u) - 1.0F : 1.0F - __builtin_sqrtf(2.0F - 2.0F * u);
 }
 
+// How samples are spread over a pixel's surroundings so that each counts the same (filter importance
+// sampling, Ernst et al. 2006). Made by filter_of() in filter_table.hpp.
+enum class FilterShape : std::uint32_t { box, tent, table };
+
+inline constexpr int filter_steps = 1024;
+// Of a filter with negative lobes, every sample whose index is 7 modulo 8 lies in a lobe.
+inline constexpr std::uint32_t lobe_period = 8;
+
+struct Filter {
+  FilterShape shape;
+  float negative;     // the lobes' weight; the rest weighs 1 + negative. 0: no lobes
+  const float* core;  // of shape `table`: filter_steps + 2 offsets, from the centre outwards
+  const float* lobes; // the same for the lobes
+};
+
+[[gnu::always_inline]] static inline bool in_lobe(const Filter& filter, std::uint32_t index) {
+  return filter.negative != 0.0F && index % lobe_period == lobe_period - 1;
+}
+// How many of the samples 0 .. count - 1 lie in lobes.
+[[gnu::always_inline]] static inline std::uint32_t lobe_samples(const Filter& filter, std::uint32_t count) {
+  return filter.negative != 0.0F ? count / lobe_period : 0U;
+}
+
+// A pixel is sum * core - lobe_sum * lobes, of the sums of its samples in no lobe and in lobes.
+struct SampleWeights {
+  float core, lobes;
+};
+[[gnu::always_inline]] static inline SampleWeights sample_weights(const Filter& filter, std::uint32_t count) {
+  const std::uint32_t in_lobes = lobe_samples(filter, count);
+  const auto others = static_cast<float>(count - in_lobes);
+  if (in_lobes == 0) return {1.0F / others, 0.0F};
+  return {(1.0F + filter.negative) / others, filter.negative / static_cast<float>(in_lobes)};
+}
+[[gnu::always_inline]] static inline float resolve_channel(const SampleWeights& weights, float sum,
+                                                           float lobe_sum) {
+  if (weights.lobes == 0.0F) return sum * weights.core;
+  const float value = sum * weights.core - lobe_sum * weights.lobes;
+  return value > 0.0F ? value : 0.0F;
+}
+
+// A point of Sobol's sequence in two dimensions, bits in reverse: what scramble() takes.
+struct SequencePoint {
+  std::uint32_t u, v;
+};
+[[gnu::always_inline]] static inline SequencePoint sequence_point(std::uint32_t index) {
+  SequencePoint point{index, 0};
+  for (std::uint32_t column = 1; index != 0; index >>= 1U, column ^= column << 1U)
+    if ((index & 1U) != 0) point.v ^= column;
+  return point;
+}
+
+// Owen's scrambling by a hash (Laine & Karras 2011, with the constants of Burley, JCGT 2020), as a number
+// from 0 to below 1. Any 2^k points from a multiple of 2^k on stay evenly spread: one in each cell of every
+// grid of 2^k equal cells.
+[[gnu::always_inline]] static inline std::uint32_t scramble_bits(std::uint32_t reversed, std::uint32_t key) {
+  reversed += key;
+  reversed ^= reversed * 0x6C50B47CU;
+  reversed ^= reversed * 0xB82F1E52U;
+  reversed ^= reversed * 0xC7AFE638U;
+  reversed ^= reversed * 0x8D22F6E6U;
+  return reverse_bits(reversed);
+}
+[[gnu::always_inline]] static inline float scramble(std::uint32_t reversed, std::uint32_t key) {
+  return static_cast<float>(static_cast<std::int32_t>(scramble_bits(reversed, key) >> 8U)) * 0x1p-24F;
+}
+
+[[gnu::always_inline]] static inline std::uint32_t pixel_key(std::uint32_t x, std::uint32_t y,
+                                                             std::uint32_t seed) {
+  return hash32(x + hash32(y + hash32(seed)));
+}
+
+// Filters are even: the table is of the half with positive offsets.
+[[gnu::always_inline]] static inline float look_up(const float* table, float u) {
+  const float side = 2.0F * u - 1.0F;
+  const float place = (side < 0.0F ? -side : side) * static_cast<float>(filter_steps);
+  const int step = static_cast<int>(place);
+  const float x = table[step] + (place - static_cast<float>(step)) * (table[step + 1] - table[step]);
+  return side < 0.0F ? -x : x;
+}
+
+// What is common to sample `index` of all pixels.
+struct SampleSet {
+  SequencePoint point;
+  std::uint32_t index;    // of the sample, before the lobes' were taken out
+  bool lobe, lobe_across; // in a lobe of x, or of y
+  Filter filter;
+  std::uint32_t seed;
+};
+
+[[gnu::always_inline]] static inline SampleSet sample_set(std::uint32_t index, const Filter& filter,
+                                                          std::uint32_t seed) {
+  SampleSet set{};
+  set.index = index;
+  set.filter = filter;
+  set.seed = seed;
+  set.lobe = in_lobe(filter, index);
+  // Samples in lobes, and the others, are sequences of their own.
+  const std::uint32_t own = set.lobe ? index / lobe_period : index - lobe_samples(filter, index);
+  set.lobe_across = set.lobe && own % 2 != 0;
+  set.point = sequence_point(set.lobe ? own / 2 : own);
+  return set;
+}
+
 struct SampleOffset {
   float x, y; // from the pixel's centre, in pixels
 };
 
-// Sample `index` of `count` >= 2 of pixel (x, y): a Hammersley set, shifted per pixel (Cranley & Patterson
-// 1976), so every row and column of a count-fold grid holds one sample. tent: spread as a tent filter two
-// pixels wide, each sample with equal weight (filter importance sampling, Ernst et al. 2006); otherwise over
-// the pixel's square.
 [[gnu::always_inline]] static inline SampleOffset sample_offset(std::uint32_t x, std::uint32_t y,
-                                                                std::uint32_t index, std::uint32_t count,
-                                                                std::uint32_t seed, bool tent) {
-  const std::uint32_t pixel = hash32(x + hash32(y + hash32(seed)));
-  const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
-  const std::uint32_t u_bits = stratum + pixel;
-  const std::uint32_t v_bits = reverse_bits(index) + hash32(pixel);
-  const float u = static_cast<float>(u_bits >> 8U) * 0x1p-24F;
-  const float v = static_cast<float>(v_bits >> 8U) * 0x1p-24F;
-  if (tent) return {tent_warp(u), tent_warp(v)};
-  return {u - 0.5F, v - 0.5F};
+                                                                const SampleSet& set) {
+  const std::uint32_t key = pixel_key(x, y, set.seed) + (set.lobe ? 0x9E3779B9U : 0U);
+  const float u = scramble(set.point.u, key);
+  const float v = scramble(set.point.v, hash32(key));
+  if (set.filter.shape == FilterShape::tent) return {tent_warp(u), tent_warp(v)};
+  if (set.filter.shape == FilterShape::box) return {u - 0.5F, v - 0.5F};
+  return {look_up(set.lobe && !set.lobe_across ? set.filter.lobes : set.filter.core, u),
+          look_up(set.lobe_across ? set.filter.lobes : set.filter.core, v)};
+}
+
+// The square -1 .. 1 to the unit disk, areas to areas (Shirley & Chiu 1997); sine and cosine of up to 45
+// degrees by their series.
+[[gnu::always_inline]] static inline SampleOffset disk_point(float a, float b) {
+  const bool wide = (a < 0.0F ? -a : a) > (b < 0.0F ? -b : b);
+  const float radius = wide ? a : b;
+  if (radius == 0.0F) return {0.0F, 0.0F};
+  const float angle = 0.785398163F * ((wide ? b : a) / radius);
+  const float square = angle * angle;
+  const float sine =
+      angle * (1.0F + square * (-0.166666667F + square * (0.00833333333F + square * -0.000198412698F)));
+  const float cosine =
+      1.0F +
+      square * (-0.5F + square * (0.0416666667F + square * (-0.00138888889F + square * 2.48015873e-5F)));
+  if (wide) return {radius * cosine, radius * sine};
+  return {radius * sine, radius * cosine};
+}
+
+// Where the ray of sample `index` of pixel (x, y) leaves the lens, a disk of radius 1: as evenly spread, and
+// shuffled, so that places on the lens and on the image have nothing to do with each other.
+[[gnu::always_inline]] static inline SampleOffset lens_point(std::uint32_t x, std::uint32_t y,
+                                                             const SampleSet& set) {
+  const std::uint32_t key = hash32(pixel_key(x, y, set.seed) + 0x632BE5ABU);
+  const SequencePoint point = sequence_point(scramble_bits(reverse_bits(set.index), key));
+  const float a = scramble(point.u, hash32(key + 1U));
+  const float b = scramble(point.v, hash32(key + 2U));
+  return disk_point(2.0F * a - 1.0F, 2.0F * b - 1.0F);
 }
 
 } // namespace fastrt

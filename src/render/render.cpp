@@ -2,6 +2,8 @@
 // The frame driver: tiles dealt out to threads, each thread with its own memory; one film write per tile.
 #include "src/reference/render.hpp"
 
+#include "src/film/adaptive.hpp"
+#include "src/film/filter_table.hpp"
 #include "src/film/frame.hpp"
 #include "src/scene/threads.hpp"
 #include "src/trace/tracer_parts.hpp"
@@ -12,6 +14,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace fastrt {
@@ -39,20 +42,38 @@ AovTargets targets_of(Frame& frame) {
   return to;
 }
 
+CameraView view_of(const CameraFrame& camera) {
+  CameraView view{};
+  view.kind = camera.orthographic ? CameraKind::orthographic
+              : camera.has_lens   ? CameraKind::lens
+                                  : CameraKind::pinhole;
+  copy(camera.eye, view.eye);
+  copy(camera.corner, view.corner);
+  copy(camera.du, view.du);
+  copy(camera.dv, view.dv);
+  copy(camera.direction, view.direction);
+  copy(camera.lens_u, view.lens_u);
+  copy(camera.lens_v, view.lens_v);
+  copy(camera.shift_u, view.shift_u);
+  copy(camera.shift_v, view.shift_v);
+  return view;
+}
+
 TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const RenderSettings& settings,
-                 Frame& frame) {
+                 const Crop& part, Frame& frame) {
   TileJob job{};
   job.scene = &parts.view;
-  copy(camera.eye, job.eye);
-  copy(camera.corner, job.corner);
-  copy(camera.du, job.du);
-  copy(camera.dv, job.dv);
-  job.spread = footprint_spread(camera, settings.samples_per_pixel);
-  job.width = settings.width;
-  job.height = settings.height;
-  job.samples = settings.samples_per_pixel;
+  job.camera = view_of(camera);
+  const Footprint footprint = camera_footprint(camera, settings.samples_per_pixel);
+  job.width = footprint.width;
+  job.spread = footprint.spread;
+  job.x_begin = part.x0;
+  job.y_begin = part.y0;
+  job.x_end = part.x1;
+  job.y_end = part.y1;
+  job.last_sample = settings.samples_per_pixel == 1 ? 0 : settings.samples_per_pixel;
   job.seed = settings.seed;
-  job.tent = settings.filter == PixelFilter::tent;
+  job.filter = filter_of(settings.filter);
   job.max_depth = std::clamp(settings.max_depth, 0, max_path_depth);
   job.min_contribution = settings.min_contribution;
   job.rgb = frame.rgb.data();
@@ -91,12 +112,50 @@ void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, int tile
     const int tile = next_tile.fetch_add(1, std::memory_order_relaxed);
     if (tile >= tile_count) return;
     TileJob job = frame_job;
-    job.x = tile % tile_columns * tile_side;
-    job.y = tile / tile_columns * tile_side;
+    job.x = job.x_begin + tile % tile_columns * tile_side;
+    job.y = job.y_begin + tile / tile_columns * tile_side;
     TileRayCounts rays{};
     parts.kernels->render_tile(job, memory.scratch(), rays);
     progress.part_done(to_counts(rays));
   }
+}
+
+int tiles_along(int pixels) { return (pixels + tile_side - 1) / tile_side; }
+
+int tile_count(const TileJob& job) {
+  return tiles_along(job.x_end - job.x_begin) * tiles_along(job.y_end - job.y_begin);
+}
+
+// All tiles, by all threads.
+void render_all(const Tracer::Parts& parts, const TileJob& job, int threads, FrameProgress& progress) {
+  std::atomic<int> next_tile{0};
+#pragma omp parallel num_threads(thread_count(threads))
+  {
+    // Exceptions must not leave a parallel region.
+    try {
+      render_tiles(parts, job, tiles_along(job.x_end - job.x_begin), tile_count(job), next_tile, progress);
+    } catch (...) {
+      progress.failed(std::current_exception());
+    }
+  }
+}
+
+// Round by round, each of all tiles.
+void render_adaptively(const Tracer::Parts& parts, TileJob job, const RenderSettings& settings, Frame& frame,
+                       FrameProgress& progress) {
+  AdaptiveFilm film(settings, job.filter, frame);
+  bool going_on = true;
+  while (going_on && !progress.stopped()) {
+    job.first_sample = film.first();
+    job.last_sample = film.last();
+    job.round.active = film.first() == 0 ? nullptr : film.active().data();
+    job.round.sum = film.sum().data();
+    job.round.lobe_sum = film.lobe_sum().empty() ? nullptr : film.lobe_sum().data();
+    render_all(parts, job, settings.threads, progress);
+    job.aovs = {};
+    going_on = film.next_round();
+  }
+  progress.rest_is_done();
 }
 
 } // namespace
@@ -106,23 +165,16 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
   if (parts.scalar_bvh) return reference::render(parts.scene, *parts.scalar_bvh, camera, settings);
   check(settings);
   const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
-  Frame frame = black_frame(settings.width, settings.height, settings.aovs);
-  const TileJob job = make_job(parts, camera_frame, settings, frame);
-  const int columns = (settings.width + tile_side - 1) / tile_side;
-  const int rows = (settings.height + tile_side - 1) / tile_side;
-  FrameProgress progress(settings, columns * rows);
-  std::atomic<int> next_tile{0};
-#pragma omp parallel num_threads(thread_count(settings.threads))
-  {
-    // Exceptions must not leave a parallel region.
-    try {
-      render_tiles(parts, job, columns, columns * rows, next_tile, progress);
-    } catch (...) {
-      progress.failed(std::current_exception());
-    }
-  }
+  const Crop part = part_with_margin(settings);
+  Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
+  const TileJob job = make_job(parts, camera_frame, settings, part, frame);
+  FrameProgress progress(settings, tile_count(job) * (1 + most_rounds(settings)));
+  if (settings.adaptive > 0.0F)
+    render_adaptively(parts, job, settings, frame, progress);
+  else
+    render_all(parts, job, settings.threads, progress);
   progress.finish(frame);
-  return frame;
+  return cut_out(std::move(frame), part, part_of(settings));
 }
 
 } // namespace fastrt

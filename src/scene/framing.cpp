@@ -97,9 +97,29 @@ Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Ve
   return camera;
 }
 
+float orthographic_height(const Aabb& bounds, const Camera& camera, float aspect) {
+  const CameraAxes axes = camera_axes(camera);
+  if (bounds.empty()) return Camera{}.view_height;
+  double half = 0.0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3d p{(corner & 1U) != 0 ? bounds.upper.x : bounds.lower.x,
+                  (corner & 2U) != 0 ? bounds.upper.y : bounds.lower.y,
+                  (corner & 4U) != 0 ? bounds.upper.z : bounds.lower.z};
+    const Vec3d from_eye = p - Vec3d(camera.eye);
+    half = std::max({half, std::fabs(glm::dot(from_eye, Vec3d(axes.v))),
+                     std::fabs(glm::dot(from_eye, Vec3d(axes.u))) / static_cast<double>(aspect)});
+  }
+  return half > 0.0 ? static_cast<float>(2.0 * half / filled) : Camera{}.view_height;
+}
+
 void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camera) {
   // The frame's vectors are the camera's axes, whatever the resolution; this throws for a degenerate camera.
-  const CameraFrame frame = make_camera_frame(camera, 2, 2);
+  Camera pinhole;
+  pinhole.eye = camera.eye;
+  pinhole.look_at = camera.look_at;
+  pinhole.up = camera.up;
+  pinhole.fov_degrees = camera.fov_degrees;
+  const CameraFrame frame = make_camera_frame(pinhole, 2, 2);
   const Vec3 right = glm::normalize(frame.du), up = -glm::normalize(frame.dv);
   const Vec3 forward = glm::normalize(frame.corner + frame.du + frame.dv);
 

@@ -5,7 +5,7 @@
 
 #include "src/trace/hit_weights.hpp"
 #include "src/trace/lighting.hpp"
-#include "src/trace/tile_order.hpp"
+#include "src/trace/tile_places.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -78,9 +78,8 @@ static void record_surfaces(const TileJob& job, const PathBatch& rays, TileScrat
   const float share = 1.0F / static_cast<float>(shadowing);
   for (int i = 0; i < rays.count; ++i) {
     const int pixel = rays.pixel[i];
-    const int x = job.x + tile_pixel_x(pixel), y = job.y + tile_pixel_y(pixel);
-    if (x >= job.width || y >= job.height || scratch.hits.primitive[i] < 0) continue;
-    const long at = static_cast<long>(y) * job.width + x;
+    if (!in_frame(job, pixel) || scratch.hits.primitive[i] < 0) continue;
+    const long at = frame_pixel(job, pixel);
     record_hit(job, rays, scratch, i, at);
     if (shadowing == 0)
       put3(job.aovs.shadow, at, 1.0F, 1.0F, 1.0F);
@@ -104,9 +103,8 @@ static void record_batch(const TileJob& job, const PathBatch& rays, TileScratch&
 static void end_recording(const TileJob& job, TileScratch& scratch) noexcept {
   scratch.recording = false;
   for (int i = 0; i < batch_size; ++i) {
-    const int x = job.x + tile_pixel_x(i), y = job.y + tile_pixel_y(i);
-    if (x >= job.width || y >= job.height) continue;
-    const long at = static_cast<long>(y) * job.width + x;
+    if (!in_frame(job, i)) continue;
+    const long at = frame_pixel(job, i);
     if (job.aovs.recursion != nullptr) job.aovs.recursion[at] = scratch.aov.deepest[i];
     if (job.aovs.cost != nullptr) job.aovs.cost[at] = scratch.aov.rays[i];
   }

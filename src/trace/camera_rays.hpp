@@ -4,52 +4,92 @@
 
 #include "src/film/sampling.hpp"
 #include "src/kernels/vec3.hpp"
-#include "src/trace/tile_job.hpp"
-#include "src/trace/tile_order.hpp"
+#include "src/trace/tile_places.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Where sample `index` of the tile's pixels lies on the image; -1: their centres.
-FASTRT_INLINE void place_samples(const TileJob& job, int index, float* px, float* py) {
-  for (int i = 0; i < batch_size; ++i) {
-    const int x = job.x + tile_pixel_x(i);
-    const int y = job.y + tile_pixel_y(i);
-    px[i] = static_cast<float>(x) + 0.5F;
-    py[i] = static_cast<float>(y) + 0.5F;
-    if (index < 0) continue;
-    const SampleOffset offset = sample_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                                              static_cast<std::uint32_t>(index),
-                                              static_cast<std::uint32_t>(job.samples), job.seed, job.tent);
-    px[i] = px[i] + offset.x;
-    py[i] = py[i] + offset.y;
+// Where rays go through the image and the lens.
+struct alignas(64) SamplePlaces {
+  float px[batch_size], py[batch_size];
+  float lens_a[batch_size], lens_b[batch_size];
+};
+
+FASTRT_INLINE void place_centers(const TileJob& job, const TileScratch& scratch, SamplePlaces& to) {
+  for (int i = 0; i < scratch.place_count; ++i) {
+    to.px[i] = static_cast<float>(picture_x(job, scratch.places[i])) + 0.5F;
+    to.py[i] = static_cast<float>(picture_y(job, scratch.places[i])) + 0.5F;
   }
 }
 
-// Pixels beyond the frame's edge get rays that can't hit anything.
-FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, PathBatch& rays) {
-  using F = Floats<widest>;
-  alignas(64) float px[batch_size];
-  alignas(64) float py[batch_size];
-  place_samples(job, index, px, py);
-  const V3<F> eye = broadcast3<F>(job.eye), corner = broadcast3<F>(job.corner);
-  const V3<F> du = broadcast3<F>(job.du), dv = broadcast3<F>(job.dv);
-  for (int i = 0; i < batch_size; i += widest) {
-    const V3<F> dir = (corner + du * load<F>(px + i)) + dv * load<F>(py + i);
-    store3(eye, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
-    store3(dir, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-    F(0.0F).store_aligned(rays.t_min + i);
-    store3(broadcast3<F>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
+FASTRT_INLINE void place_samples(const TileJob& job, const TileScratch& scratch, int index,
+                                 SamplePlaces& to) {
+  const SampleSet set = sample_set(static_cast<std::uint32_t>(index), job.filter, job.seed);
+  for (int i = 0; i < scratch.place_count; ++i) {
+    const int x = picture_x(job, scratch.places[i]), y = picture_y(job, scratch.places[i]);
+    const SampleOffset offset =
+        sample_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), set);
+    to.px[i] = (static_cast<float>(x) + 0.5F) + offset.x;
+    to.py[i] = (static_cast<float>(y) + 0.5F) + offset.y;
+    if (job.camera.kind != CameraKind::lens) continue;
+    const SampleOffset lens = lens_point(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), set);
+    to.lens_a[i] = lens.x;
+    to.lens_b[i] = lens.y;
+  }
+}
+
+using CameraF = Floats<widest>;
+using CameraV = V3<CameraF>;
+
+// (first + du * px) + dv * py
+FASTRT_INLINE CameraV image_point(const CameraView& camera, const SamplePlaces& places, int i) {
+  return (broadcast3<CameraF>(camera.corner) +
+          broadcast3<CameraF>(camera.du) * CameraF::load_aligned(places.px + i)) +
+         broadcast3<CameraF>(camera.dv) * CameraF::load_aligned(places.py + i);
+}
+
+FASTRT_INLINE void aim(const CameraView& camera, CameraKind kind, const SamplePlaces& places, int i,
+                       PathBatch& rays) {
+  const CameraV point = image_point(camera, places, i);
+  CameraV origin = broadcast3<CameraF>(camera.eye), dir = point;
+  if (kind == CameraKind::orthographic) {
+    origin = point;
+    dir = broadcast3<CameraF>(camera.direction);
+  } else if (kind == CameraKind::lens) {
+    const CameraF a = CameraF::load_aligned(places.lens_a + i), b = CameraF::load_aligned(places.lens_b + i);
+    origin = origin + (broadcast3<CameraF>(camera.lens_u) * a + broadcast3<CameraF>(camera.lens_v) * b);
+    dir = dir - (broadcast3<CameraF>(camera.shift_u) * a + broadcast3<CameraF>(camera.shift_v) * b);
+  }
+  store3(origin, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+  store3(dir, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+}
+
+// Sample `index` of the places, or with -1 their centres, seen through the middle of a lens. Pixels beyond
+// the frame's edge get rays that can't hit anything.
+FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, const TileScratch& scratch,
+                                    PathBatch& rays) {
+  SamplePlaces places{};
+  CameraKind kind = job.camera.kind;
+  if (index < 0)
+    place_centers(job, scratch, places);
+  else
+    place_samples(job, scratch, index, places);
+  if (index < 0 && kind == CameraKind::lens) kind = CameraKind::pinhole;
+  for (int i = 0; i < scratch.place_count; i += widest) {
+    aim(job.camera, kind, places, i, rays);
+    CameraF(0.0F).store_aligned(rays.t_min + i);
+    store3(broadcast3<CameraF>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
     Ints<widest>(-1).store_aligned(rays.exclude + i);
-    F(0.0F).store_aligned(rays.width + i);
+    CameraF(job.width).store_aligned(rays.width + i);
     for (auto& medium : rays.media) Ints<widest>(-1).store_aligned(medium + i);
   }
-  for (int i = 0; i < batch_size; ++i) {
-    const bool in_frame = job.x + tile_pixel_x(i) < job.width && job.y + tile_pixel_y(i) < job.height;
-    rays.t_max[i] = in_frame ? __builtin_inff() : 0.0F;
-    rays.pixel[i] = i;
+  for (int i = 0; i < scratch.place_count; ++i) {
+    rays.t_max[i] = in_frame(job, scratch.places[i]) ? __builtin_inff() : 0.0F;
+    rays.pixel[i] = scratch.places[i];
   }
-  rays.count = batch_size;
-  rays.shape = BatchShape::common_origin;
+  rays.count = scratch.place_count;
+  rays.shape = kind == CameraKind::lens           ? BatchShape::coherent
+               : kind == CameraKind::orthographic ? BatchShape::parallel
+                                                  : BatchShape::common_origin;
   rays.depth = 0;
 }
 

@@ -2,6 +2,7 @@
 // What the frame driver hands to the kernels for one tile, and the memory that a thread works in. Plain data.
 #pragma once
 
+#include "src/film/sampling.hpp"
 #include "src/trace/ray_batch.hpp"
 #include "src/trace/scene_view.hpp"
 
@@ -70,6 +71,9 @@ struct TileScratch {
   RayBatch shadow;
   float radiance_r[batch_size], radiance_g[batch_size], radiance_b[batch_size]; // of one sample
   float sum_r[batch_size], sum_g[batch_size], sum_b[batch_size];
+  float lobe_r[batch_size], lobe_g[batch_size], lobe_b[batch_size]; // of samples in the filter's lobes
+  std::int32_t places[batch_size]; // in the tile, of the pixels that get samples
+  int place_count;
   std::int32_t first_primitive[batch_size];
   bool recording; // AOVs, while the rays of the pixels' centres are traced
   AovScratch aov;
@@ -79,15 +83,32 @@ struct TileScratch {
   int waiting_count, unused_count;
 };
 
+enum class CameraKind : std::uint32_t { pinhole, orthographic, lens };
+
+// CameraFrame.
+struct CameraView {
+  CameraKind kind;
+  float eye[3], corner[3], du[3], dv[3];
+  float direction[3];
+  float lens_u[3], lens_v[3], shift_u[3], shift_v[3];
+};
+
+// One round of adaptive sampling; all null otherwise. Three floats a pixel of the frame.
+struct RoundView {
+  const std::uint8_t* active; // null: all pixels
+  float *sum, *lobe_sum;
+};
+
 struct TileJob {
   const SceneView* scene;
-  float eye[3], corner[3], du[3], dv[3]; // CameraFrame
-  float spread;                          // how much a footprint widens per unit of length
-  int x, y;                              // the tile's upper left pixel
-  int width, height;                     // of the frame
-  int samples;
+  CameraView camera;
+  float width, spread; // of a footprint at a camera ray's origin, and what it grows by per unit of length
+  int x, y;            // the tile's upper left pixel, in the picture
+  int x_begin, y_begin, x_end, y_end; // the part of the picture that the frame is
+  int first_sample, last_sample;      // to take: first .. last - 1; 0 .. 0: the pixels' centres
   std::uint32_t seed;
-  bool tent;
+  Filter filter;
+  RoundView round;
   int max_depth;
   float min_contribution;
   float* rgb;              // of the frame

@@ -159,6 +159,23 @@ aovs() {
   expect_error 4 'a-id.png' tiny.obj -o a.png --aov id
 }
 
+# Rows and columns of a PPM are those of the whole picture.
+crop() {
+  local more
+  for more in '' '-s 2 --adaptive 0.05 --max-spp 8' '-s 4 --aperture 0.2 --filter mitchell'; do
+    # shellcheck disable=SC2086
+    expect 0 "$scenes/spheres.obj" -r 80x60 $more -o whole.ppm
+    # shellcheck disable=SC2086
+    expect 0 "$scenes/spheres.obj" -r 80x60 $more -o part.ppm --crop 20,17,61,49
+    head -n 2 part.ppm | tail -n 1 | grep -qx '41 32' || fail "another size"
+    for row in 0 13 31; do
+      cmp -n $((3 * 41)) whole.ppm part.ppm $((13 + 3 * (80 * (17 + row) + 20))) $((13 + 3 * 41 * row)) ||
+        fail "row $row differs $more"
+    done
+  done
+  expect_error 2 '--crop' tiny.obj "${small[@]}" --crop 0,0,49,32
+}
+
 signature() {
   expect 0 "$scenes/spheres.obj" "${small[@]}" --signature
   [ "$(magic spheres-signature.png)" = 89504e47 ] || fail "no spheres-signature.png"

@@ -202,6 +202,34 @@ inline Shot sampled(const char* name, int samples, PixelFilter filter, std::uint
   return shot;
 }
 
+inline Shot seen_by(const char* name, const Camera& like, int samples, float adaptive = 0) {
+  Stage stage;
+  stage.light_up();
+  stage.sphere({-1, 0, 0}, 1, mirror(Vec3(0.5F)));
+  stage.sphere({1.2F, 0, -1}, 1, shiny(SpecularModel::blinn, 50));
+  Shot shot = stage.shot(name, 45, 31, samples);
+  shot.camera.projection = like.projection;
+  shot.camera.view_height = like.view_height;
+  shot.camera.window = like.window;
+  shot.camera.aperture_radius = like.aperture_radius;
+  shot.settings.adaptive = adaptive;
+  return shot;
+}
+
+inline std::vector<Shot> views() {
+  Camera parallel, lens, window;
+  parallel.projection = Projection::orthographic;
+  parallel.view_height = 4;
+  lens.aperture_radius = 0.3F;
+  window.window = Window{-0.4F, 0.1F, -0.2F, 0.3F};
+  return {seen_by("parallel_rays", parallel, 1),
+          seen_by("parallel_rays_4", parallel, 4),
+          seen_by("lens", lens, 5),
+          seen_by("lens_adaptive", lens, 2, 0.05F),
+          seen_by("window", window, 1),
+          seen_by("adaptive", {}, 1, 0.02F)};
+}
+
 inline Shot sized(const char* name, int width, int height) {
   Stage stage;
   stage.light_up();
@@ -212,30 +240,36 @@ inline Shot sized(const char* name, int width, int height) {
 inline std::vector<Shot> designed_shots() {
   SceneBuilder empty;
   empty.set_background({0.3F, 0.5F, 0.7F});
-  return {{"nothing", empty.build(), looking({0, 0, 5}, {0, 0, 0}), small_settings(20, 20)},
-          highlights(SpecularModel::phong, "phong"),
-          highlights(SpecularModel::blinn, "blinn"),
-          mirrors("mirrors", 8, 1.0F / 256),
-          mirrors("mirrors_depth_0", 0, 0),
-          mirrors("mirrors_depth_1", 1, 0),
-          mirrors("mirrors_bright_alone", 8, 0.4F),
-          endless("endless_to_64", 64),
-          endless("endless_to_5", 5),
-          refraction(),
-          nested_media(),
-          coloured_shadows(),
-          own_light("emission_and_unlit", true),
-          own_light("no_light_at_all", false),
-          many_lights(),
-          sampled("box_3", 3, PixelFilter::box, 0),
-          sampled("tent_3", 3, PixelFilter::tent, 0),
-          sampled("box_16", 16, PixelFilter::box, 7),
-          sampled("tent_16", 16, PixelFilter::tent, 0xFFFFFFFFU),
-          sized("one_pixel", 1, 1),
-          sized("narrow", 1, 50),
-          sized("low", 50, 1),
-          sized("no_multiple_of_16", 17, 33),
-          sized("whole_tiles", 96, 64)};
+  std::vector<Shot> shots = {
+      {"nothing", empty.build(), looking({0, 0, 5}, {0, 0, 0}), small_settings(20, 20)},
+      highlights(SpecularModel::phong, "phong"),
+      highlights(SpecularModel::blinn, "blinn"),
+      mirrors("mirrors", 8, 1.0F / 256),
+      mirrors("mirrors_depth_0", 0, 0),
+      mirrors("mirrors_depth_1", 1, 0),
+      mirrors("mirrors_bright_alone", 8, 0.4F),
+      endless("endless_to_64", 64),
+      endless("endless_to_5", 5),
+      refraction(),
+      nested_media(),
+      coloured_shadows(),
+      own_light("emission_and_unlit", true),
+      own_light("no_light_at_all", false),
+      many_lights(),
+      sampled("box_3", 3, PixelFilter::box, 0),
+      sampled("tent_3", 3, PixelFilter::tent, 0),
+      sampled("box_16", 16, PixelFilter::box, 7),
+      sampled("tent_16", 16, PixelFilter::tent, 0xFFFFFFFFU),
+      sized("one_pixel", 1, 1),
+      sized("narrow", 1, 50),
+      sized("low", 50, 1),
+      sized("no_multiple_of_16", 17, 33),
+      sampled("gaussian_5", 5, PixelFilter::gaussian, 1),
+      sampled("mitchell_2", 2, PixelFilter::mitchell, 2),
+      sampled("mitchell_19", 19, PixelFilter::mitchell, 3),
+      sized("whole_tiles", 96, 64)};
+  for (Shot& shot : views()) shots.push_back(std::move(shot));
+  return shots;
 }
 
 } // namespace fastrt::test

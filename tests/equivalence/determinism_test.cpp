@@ -45,6 +45,12 @@ Shot in_other_units(const Shot& shot, float factor) {
   Shot scaled{shot.name, Scene(std::move(desc)), shot.camera, shot.settings};
   scaled.camera.eye *= factor;
   scaled.camera.look_at *= factor;
+  scaled.camera.view_height *= factor;
+  scaled.camera.aperture_radius *= factor;
+  scaled.camera.focus_distance *= factor;
+  scaled.camera.focal_distance *= factor;
+  if (Window* window = scaled.camera.window ? &*scaled.camera.window : nullptr)
+    for (float* side : {&window->left, &window->right, &window->bottom, &window->top}) *side *= factor;
   return scaled;
 }
 

@@ -57,6 +57,7 @@ inline void expect_equal(const Frame& found, const Frame& expected, const std::s
   EXPECT_EQ(found.rays.shadow, expected.rays.shadow) << what;
   EXPECT_EQ(found.rays.reflected, expected.rays.reflected) << what;
   EXPECT_EQ(found.rays.refracted, expected.rays.refracted) << what;
+  EXPECT_EQ(found.samples, expected.samples) << what;
   EXPECT_TRUE(found.complete) << what;
 }
 

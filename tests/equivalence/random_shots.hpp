@@ -84,6 +84,32 @@ inline Scene any_scene(Random& random) {
   return builder.build();
 }
 
+// Any of what cameras and sampling offer; drawn last, so that the scenes stay as they are.
+inline void any_view(Random& random, Camera& camera, RenderSettings& settings) {
+  if (random.below(4) == 0) {
+    camera.projection = Projection::orthographic;
+    camera.view_height = random.uniform(0.5F, 6);
+  } else if (random.below(3) == 0) {
+    camera.aperture_radius = random.uniform(0.01F, 0.5F);
+    if (random.below(2) == 0) camera.focus_distance = random.uniform(1, 8);
+  }
+  if (random.below(4) == 0) {
+    camera.window = Window{random.uniform(-1, -0.1F), random.uniform(0.1F, 1), random.uniform(-1, -0.1F),
+                           random.uniform(0.1F, 1)};
+    camera.focal_distance = random.uniform(0.5F, 3);
+  }
+  if (random.below(3) == 0) settings.filter = static_cast<PixelFilter>(random.below(4));
+  if (random.below(3) == 0) {
+    settings.adaptive = random.uniform(0.001F, 0.2F);
+    settings.most_samples = settings.samples_per_pixel + static_cast<int>(random.below(9));
+  }
+  if (random.below(4) == 0) {
+    const int x = static_cast<int>(random.below(static_cast<std::uint32_t>(settings.width)));
+    const int y = static_cast<int>(random.below(static_cast<std::uint32_t>(settings.height)));
+    settings.crop = Crop{x, y, settings.width, (y + settings.height + 1) / 2};
+  }
+}
+
 inline Shot any_shot(std::uint32_t seed) {
   Random random(seed);
   Shot shot{"seed " + std::to_string(seed), any_scene(random), {}, {}};
@@ -100,6 +126,7 @@ inline Shot any_shot(std::uint32_t seed) {
   shot.settings.min_contribution = random.below(3) == 0 ? 0.0F : random.uniform(0, 0.1F);
   if (seed % 2 == 0)
     for (std::size_t i = 0; i < aov_count; ++i) shot.settings.aovs.push_back(static_cast<Aov>(i));
+  if (seed % 3 == 0) any_view(random, shot.camera, shot.settings);
   return shot;
 }
 

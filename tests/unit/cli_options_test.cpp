@@ -106,6 +106,34 @@ TEST(CliOptions, SignatureTakesItsValueOnlyAfterEquals) {
   EXPECT_EQ(parse({"--signature=b.png", "a.obj"}).signature, "b.png");
 }
 
+TEST(CliOptions, Views) {
+  const Options options = parse({"--crop", "1,2,30,40", "--window", "-1,2,-3,4", "--focal", "2.5",
+                                 "--aperture", "0.1", "--focus=7", "-s", "4", "--filter", "mitchell",
+                                 "--adaptive", "0.05", "--max-spp", "32", "a.obj"});
+  ASSERT_TRUE(options.crop.has_value());
+  EXPECT_EQ(options.crop->x1, 30);
+  EXPECT_EQ(options.crop->y1, 40);
+  ASSERT_TRUE(options.window.has_value());
+  EXPECT_EQ(options.window->left, -1.0F);
+  EXPECT_EQ(options.window->top, 4.0F);
+  EXPECT_EQ(options.focal_distance, 2.5F);
+  EXPECT_EQ(options.aperture_radius, 0.1F);
+  EXPECT_EQ(options.focus_distance, 7.0F);
+  EXPECT_EQ(options.filter, PixelFilter::mitchell);
+  EXPECT_EQ(options.adaptive, 0.05F);
+  EXPECT_EQ(options.most_samples, 32);
+  EXPECT_TRUE(options.warnings.empty());
+  EXPECT_FALSE(options.orthographic);
+  EXPECT_TRUE(parse({"--ortho", "auto", "a.obj"}).orthographic);
+  EXPECT_FALSE(parse({"--ortho", "auto", "a.obj"}).view_height.has_value());
+  EXPECT_EQ(parse({"--ortho=3", "a.obj"}).view_height, 3.0F);
+}
+
+TEST(CliOptions, WhatDoesNothingIsAWarning) {
+  EXPECT_EQ(parse({"--aperture", "0.1", "a.obj"}).warnings.size(), 1U);
+  EXPECT_EQ(parse({"--max-spp", "9", "a.obj"}).warnings.size(), 1U);
+}
+
 TEST(CliOptions, AovsAreNamesOrAll) {
   EXPECT_TRUE(parse({"a.obj"}).aovs.empty());
   EXPECT_EQ(parse({"--aov", "uv,depth-of-recursion,uv", "a.obj"}).aovs,
@@ -166,6 +194,23 @@ TEST(CliOptions, UsageErrors) {
       {"a.obj", "--aov", "colour"},
       {"a.obj", "--aov", "id,,depth"},
       {"a.obj", "--aov", ""},
+      {"a.obj", "--crop", "0,0,1"},
+      {"a.obj", "--crop", "0,0,0,5"},
+      {"a.obj", "--crop", "5,0,4,5"},
+      {"a.obj", "--crop", "-1,0,4,5"},
+      {"a.obj", "--crop", "0,0,1025,5"},
+      {"a.obj", "--window", "1,1,0,1"},
+      {"a.obj", "--window", "0,1,0"},
+      {"a.obj", "--focal", "0"},
+      {"a.obj", "--ortho", "0"},
+      {"a.obj", "--ortho", "all"},
+      {"a.obj", "--aperture", "-1"},
+      {"a.obj", "--aperture", "1", "--ortho", "auto"},
+      {"a.obj", "--focus", "nan"},
+      {"a.obj", "--adaptive", "0"},
+      {"a.obj", "--adaptive", "2"},
+      {"a.obj", "--max-spp", "0"},
+      {"a.obj", "-s", "4", "--adaptive", "0.1", "--max-spp", "3"},
   };
   for (const auto& words : bad) {
     EXPECT_THROW(parse(words), UsageError) << (words.empty() ? "" : words.back());

@@ -40,6 +40,15 @@ TEST(CliReport, SummaryWithSpheresAndWithoutAFile) {
   EXPECT_EQ(summary_line(stats).rfind("no picture kept: 1024x768, 1 sphere, 1 spp", 0), 0U);
 }
 
+TEST(CliReport, SummaryOfAdaptiveSampling) {
+  RunStats stats = some_stats();
+  stats.samples_per_pixel = 4;
+  stats.most_samples = 64;
+  stats.mean_samples = 9.25;
+  EXPECT_NE(summary_line(stats).find(", 4 to 64 spp, 9.2 on average, "), std::string::npos);
+  EXPECT_NE(stats_json(stats).find("\"mean_spp\": 9.25"), std::string::npos);
+}
+
 TEST(CliReport, JsonHoldsTheNumbers) {
   const std::string json = stats_json(some_stats());
   EXPECT_EQ(json.front(), '{');

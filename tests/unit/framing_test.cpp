@@ -132,6 +132,27 @@ TEST(DefaultLights, DoNotClipAGreySurfaceAndShowTheFront) {
   EXPECT_NO_THROW(Scene{desc});
 }
 
+TEST(OrthographicHeight, ShowsAllCornersAndHardlyMore) {
+  for (const Aabb& box : boxes)
+    for (const float aspect : {0.4F, 1.0F, 2.5F}) {
+      Camera camera = frame_scene(box, 40, aspect);
+      camera.projection = Projection::orthographic;
+      camera.view_height = orthographic_height(box, camera, aspect);
+      const CameraAxes axes = camera_axes(camera);
+      float most = 0;
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 p =
+            Vec3((i & 1) != 0 ? box.lower.x : box.upper.x, (i & 2) != 0 ? box.lower.y : box.upper.y,
+                 (i & 4) != 0 ? box.lower.z : box.upper.z) -
+            camera.eye;
+        most = std::max({most, std::fabs(glm::dot(p, axes.v)), std::fabs(glm::dot(p, axes.u)) / aspect});
+        EXPECT_GT(glm::dot(p, axes.w), 0.0F); // before the eye
+      }
+      EXPECT_LT(2 * most, camera.view_height);
+      EXPECT_GT(2 * most, 0.9F * camera.view_height);
+    }
+}
+
 TEST(DefaultLights, TheKeyComesFromTheUpperLeft) {
   const Camera camera = frame_scene(boxes[0], 40, 1);
   SceneDesc desc;

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/film/adaptive.hpp"
+
+#include "src/film/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace fastrt {
+namespace {
+
+int most_samples(const RenderSettings& settings) {
+  if (settings.most_samples != 0) return settings.most_samples;
+  constexpr int highest = 1 << 30;
+  return settings.samples_per_pixel > highest / 16 ? highest : 16 * settings.samples_per_pixel;
+}
+
+// How bright a channel looks: 0 to 1.
+float look(float channel) { return std::sqrt(std::min(std::max(channel, 0.0F), 1.0F)); }
+
+template <class T>
+void cut_rows(std::vector<T>& values, std::size_t channels, const Crop& outer, const Crop& inner) {
+  const auto outer_width = static_cast<std::size_t>(outer.x1 - outer.x0);
+  const auto width = static_cast<std::size_t>(inner.x1 - inner.x0);
+  const auto x0 = static_cast<std::size_t>(inner.x0 - outer.x0);
+  const auto y0 = static_cast<std::size_t>(inner.y0 - outer.y0);
+  const auto height = static_cast<std::size_t>(inner.y1 - inner.y0);
+  if (values.empty()) return;
+  for (std::size_t y = 0; y < height; ++y) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(channels * ((y0 + y) * outer_width + x0));
+    std::copy(from, from + static_cast<std::ptrdiff_t>(channels * width),
+              values.begin() + static_cast<std::ptrdiff_t>(channels * y * width));
+  }
+  values.resize(channels * width * height);
+}
+
+} // namespace
+
+int most_rounds(const RenderSettings& settings) {
+  if (settings.adaptive == 0.0F) return 0;
+  int rounds = 0;
+  for (std::int64_t count = settings.samples_per_pixel; count < most_samples(settings); count *= 2) ++rounds;
+  return rounds;
+}
+
+Crop part_with_margin(const RenderSettings& settings) {
+  const Crop part = part_of(settings);
+  const int margin = most_rounds(settings);
+  return {std::max(part.x0 - margin, 0), std::max(part.y0 - margin, 0),
+          std::min(part.x1 + margin, settings.width), std::min(part.y1 + margin, settings.height)};
+}
+
+AdaptiveFilm::AdaptiveFilm(const RenderSettings& settings, const Filter& filter, Frame& frame)
+    : settings_(&settings), filter_(filter), frame_(&frame), most_(most_samples(settings)),
+      last_(settings.samples_per_pixel) {
+  const std::size_t pixels = frame.primitive.size();
+  active_.assign(pixels, 1);
+  sum_.assign(3 * pixels, 0.0F);
+  if (filter.negative != 0.0F) lobe_sum_.assign(3 * pixels, 0.0F);
+  frame.samples.assign(pixels, 0);
+}
+
+void AdaptiveFilm::resolve() {
+  const SampleWeights weights = sample_weights(filter_, static_cast<std::uint32_t>(last_));
+  for (std::size_t pixel = 0; pixel < active_.size(); ++pixel) {
+    if (active_[pixel] == 0) continue;
+    frame_->samples[pixel] = last_;
+    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c)
+      frame_->rgb[c] = resolve_channel(weights, sum_[c], lobe_sum_.empty() ? 0.0F : lobe_sum_[c]);
+  }
+}
+
+bool AdaptiveFilm::differs(int x, int y) const {
+  const auto channel = [&](int column, int row, int c) {
+    return look(frame_->rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_->width) +
+                                 static_cast<std::size_t>(column)) +
+                            static_cast<std::size_t>(c)]);
+  };
+  for (int row = std::max(y - 1, 0); row <= std::min(y + 1, frame_->height - 1); ++row)
+    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, frame_->width - 1); ++column)
+      for (int c = 0; c < 3; ++c)
+        if (std::fabs(channel(column, row, c) - channel(x, y, c)) > settings_->adaptive) return true;
+  return false;
+}
+
+bool AdaptiveFilm::next_round() {
+  resolve();
+  first_ = last_;
+  last_ = first_ > most_ / 2 ? most_ : 2 * first_;
+  if (first_ == last_) return false;
+  bool any = false;
+  std::vector<std::uint8_t> next(active_.size(), 0);
+  for (int y = 0; y < frame_->height; ++y)
+    for (int x = 0; x < frame_->width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_->width) + static_cast<std::size_t>(x);
+      // Who has once been left out stays so: the samples that a pixel has are always the first ones.
+      if (active_[pixel] != 0 && differs(x, y)) next[pixel] = 1;
+      any = any || next[pixel] != 0;
+    }
+  active_ = std::move(next);
+  return any;
+}
+
+Frame cut_out(Frame frame, const Crop& outer, const Crop& inner) {
+  cut_rows(frame.rgb, 3, outer, inner);
+  cut_rows(frame.primitive, 1, outer, inner);
+  cut_rows(frame.samples, 1, outer, inner);
+  for (AovPlane& plane : frame.aovs) {
+    const auto channels = static_cast<std::size_t>(aov_info(plane.aov).channels);
+    cut_rows(plane.values, channels, outer, inner);
+    cut_rows(plane.ids, channels, outer, inner);
+  }
+  frame.width = inner.x1 - inner.x0;
+  frame.height = inner.y1 - inner.y0;
+  return frame;
+}
+
+} // namespace fastrt
