@@ -57,7 +57,7 @@ int choose_threads(const Options& options) {
 // Colour, primitive id and AOVs of every pixel, twice if there are two renderings.
 void check_image_size(const Options& options) {
   std::uint64_t values = 4;
-  if (options.adaptive > 0) values += 8; // sums, counts
+  if (options.adaptive > 0) values += 11; // sums, counts, what the eye sees
   for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
   const std::uint64_t pixel_bytes = values * sizeof(float) * (options.verify ? 2 : 1);
   const int width = options.crop ? options.crop->x1 - options.crop->x0 : options.width;

@@ -2,6 +2,7 @@
 #include "src/film/adaptive.hpp"
 
 #include "src/film/frame.hpp"
+#include "src/scene/threads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,31 +59,52 @@ AdaptiveFilm::AdaptiveFilm(const RenderSettings& settings, const Filter& filter,
   const std::size_t pixels = frame.primitive.size();
   active_.assign(pixels, 1);
   sum_.assign(3 * pixels, 0.0F);
+  look_.assign(3 * pixels, 0.0F);
   if (filter.negative != 0.0F) lobe_sum_.assign(3 * pixels, 0.0F);
   frame.samples.assign(pixels, 0);
 }
 
 void AdaptiveFilm::resolve() {
   const SampleWeights weights = sample_weights(filter_, static_cast<std::uint32_t>(last_));
-  for (std::size_t pixel = 0; pixel < active_.size(); ++pixel) {
+  const auto pixels = static_cast<std::ptrdiff_t>(active_.size());
+#pragma omp parallel for schedule(static) num_threads(thread_count(settings_->threads))
+  for (std::ptrdiff_t i = 0; i < pixels; ++i) {
+    const auto pixel = static_cast<std::size_t>(i);
     if (active_[pixel] == 0) continue;
     frame_->samples[pixel] = last_;
-    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c)
+    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
       frame_->rgb[c] = resolve_channel(weights, sum_[c], lobe_sum_.empty() ? 0.0F : lobe_sum_[c]);
+      look_[c] = look(frame_->rgb[c]);
+    }
   }
 }
 
 bool AdaptiveFilm::differs(int x, int y) const {
-  const auto channel = [&](int column, int row, int c) {
-    return look(frame_->rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_->width) +
-                                 static_cast<std::size_t>(column)) +
-                            static_cast<std::size_t>(c)]);
+  const auto at = [&](int column, int row) {
+    return 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_->width) +
+                static_cast<std::size_t>(column));
   };
+  const float* const own = &look_[at(x, y)];
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, frame_->height - 1); ++row)
-    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, frame_->width - 1); ++column)
+    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, frame_->width - 1); ++column) {
+      const float* const other = &look_[at(column, row)];
       for (int c = 0; c < 3; ++c)
-        if (std::fabs(channel(column, row, c) - channel(x, y, c)) > settings_->adaptive) return true;
+        if (std::fabs(other[c] - own[c]) > settings_->adaptive) return true;
+    }
   return false;
+}
+
+// Who has once been left out stays so: the samples that a pixel has are always the first ones.
+bool AdaptiveFilm::mark_row(int y, std::vector<std::uint8_t>& next) const {
+  bool any = false;
+  for (int x = 0; x < frame_->width; ++x) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_->width) + static_cast<std::size_t>(x);
+    if (active_[pixel] == 0 || !differs(x, y)) continue;
+    next[pixel] = 1;
+    any = true;
+  }
+  return any;
 }
 
 bool AdaptiveFilm::next_round() {
@@ -92,14 +114,8 @@ bool AdaptiveFilm::next_round() {
   if (first_ == last_) return false;
   bool any = false;
   std::vector<std::uint8_t> next(active_.size(), 0);
-  for (int y = 0; y < frame_->height; ++y)
-    for (int x = 0; x < frame_->width; ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_->width) + static_cast<std::size_t>(x);
-      // Who has once been left out stays so: the samples that a pixel has are always the first ones.
-      if (active_[pixel] != 0 && differs(x, y)) next[pixel] = 1;
-      any = any || next[pixel] != 0;
-    }
+#pragma omp parallel for schedule(static) num_threads(thread_count(settings_->threads)) reduction(|| : any)
+  for (int y = 0; y < frame_->height; ++y) any = mark_row(y, next) || any;
   active_ = std::move(next);
   return any;
 }

@@ -40,6 +40,7 @@ public:
 private:
   void resolve();
   bool differs(int x, int y) const;
+  bool mark_row(int y, std::vector<std::uint8_t>& next) const;
 
   const RenderSettings* settings_;
   Filter filter_;
@@ -47,6 +48,7 @@ private:
   int most_, first_ = 0, last_;
   std::vector<std::uint8_t> active_;
   std::vector<float> sum_, lobe_sum_;
+  std::vector<float> look_; // the colours as the eye sees them
 };
 
 // The part `inner` of a frame that shows `outer`.
