@@ -4,7 +4,7 @@
 
 #include "src/kernels/pair_kernels.hpp"
 #include "src/trace/hit_weights.hpp"
-#include "src/trace/whitted.hpp"
+#include "src/trace/render_tile.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 

@@ -21,20 +21,27 @@ FASTRT_INLINE void place_centers(const TileJob& job, const TileScratch& scratch,
   }
 }
 
+FASTRT_INLINE void place_sample(const TileJob& job, int place, const SampleSet& set, int i,
+                                SamplePlaces& to) {
+  const int x = picture_x(job, place), y = picture_y(job, place);
+  const SampleOffset offset =
+      sample_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), set);
+  to.px[i] = (static_cast<float>(x) + 0.5F) + offset.x;
+  to.py[i] = (static_cast<float>(y) + 0.5F) + offset.y;
+  if (job.camera.kind != CameraKind::lens) return;
+  const SampleOffset lens = lens_point(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), set);
+  to.lens_a[i] = lens.x;
+  to.lens_b[i] = lens.y;
+}
+
+FASTRT_INLINE SampleSet sample_set_of(const TileJob& job, int index) {
+  return sample_set(static_cast<std::uint32_t>(index), job.filter, job.seed);
+}
+
 FASTRT_INLINE void place_samples(const TileJob& job, const TileScratch& scratch, int index,
                                  SamplePlaces& to) {
-  const SampleSet set = sample_set(static_cast<std::uint32_t>(index), job.filter, job.seed);
-  for (int i = 0; i < scratch.place_count; ++i) {
-    const int x = picture_x(job, scratch.places[i]), y = picture_y(job, scratch.places[i]);
-    const SampleOffset offset =
-        sample_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), set);
-    to.px[i] = (static_cast<float>(x) + 0.5F) + offset.x;
-    to.py[i] = (static_cast<float>(y) + 0.5F) + offset.y;
-    if (job.camera.kind != CameraKind::lens) continue;
-    const SampleOffset lens = lens_point(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), set);
-    to.lens_a[i] = lens.x;
-    to.lens_b[i] = lens.y;
-  }
+  const SampleSet set = sample_set_of(job, index);
+  for (int i = 0; i < scratch.place_count; ++i) place_sample(job, scratch.places[i], set, i, to);
 }
 
 using CameraF = Floats<widest>;
@@ -63,8 +70,27 @@ FASTRT_INLINE void aim(const CameraView& camera, CameraKind kind, const SamplePl
   store3(dir, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
 }
 
-// Sample `index` of the places, or with -1 their centres, seen through the middle of a lens. Pixels beyond
-// the frame's edge get rays that can't hit anything.
+// `count` rays through the places; pixels beyond the frame's edge get rays that can't hit anything. The
+// caller says which row of `radiance` each adds to.
+FASTRT_INLINE void aim_rays(const TileJob& job, CameraKind kind, const SamplePlaces& places, int count,
+                            PathBatch& rays) {
+  for (int i = 0; i < count; i += widest) {
+    aim(job.camera, kind, places, i, rays);
+    CameraF(0.0F).store_aligned(rays.t_min + i);
+    CameraF(__builtin_inff()).store_aligned(rays.t_max + i);
+    store3(broadcast3<CameraF>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
+    Ints<widest>(-1).store_aligned(rays.exclude + i);
+    CameraF(job.width).store_aligned(rays.width + i);
+    for (auto& medium : rays.media) Ints<widest>(-1).store_aligned(medium + i);
+  }
+  rays.count = count;
+  rays.shape = kind == CameraKind::lens           ? BatchShape::coherent
+               : kind == CameraKind::orthographic ? BatchShape::parallel
+                                                  : BatchShape::common_origin;
+  rays.depth = 0;
+}
+
+// Sample `index` of the places, or with -1 their centres, seen through the middle of a lens.
 FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, const TileScratch& scratch,
                                     PathBatch& rays) {
   SamplePlaces places{};
@@ -74,23 +100,21 @@ FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, const TileScr
   else
     place_samples(job, scratch, index, places);
   if (index < 0 && kind == CameraKind::lens) kind = CameraKind::pinhole;
-  for (int i = 0; i < scratch.place_count; i += widest) {
-    aim(job.camera, kind, places, i, rays);
-    CameraF(0.0F).store_aligned(rays.t_min + i);
-    store3(broadcast3<CameraF>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
-    Ints<widest>(-1).store_aligned(rays.exclude + i);
-    CameraF(job.width).store_aligned(rays.width + i);
-    for (auto& medium : rays.media) Ints<widest>(-1).store_aligned(medium + i);
-  }
+  aim_rays(job, kind, places, scratch.place_count, rays);
   for (int i = 0; i < scratch.place_count; ++i) {
-    rays.t_max[i] = in_frame(job, scratch.places[i]) ? __builtin_inff() : 0.0F;
+    if (!in_frame(job, scratch.places[i])) rays.t_max[i] = 0.0F;
     rays.pixel[i] = scratch.places[i];
   }
-  rays.count = scratch.place_count;
-  rays.shape = kind == CameraKind::lens           ? BatchShape::coherent
-               : kind == CameraKind::orthographic ? BatchShape::parallel
-                                                  : BatchShape::common_origin;
-  rays.depth = 0;
+}
+
+// The rows of `scratch`, which all are in the frame.
+FASTRT_INLINE void make_row_rays(const TileJob& job, const TileScratch& scratch, PathBatch& rays) {
+  SamplePlaces places{};
+  for (int i = 0; i < scratch.row_count; ++i) {
+    place_sample(job, scratch.row_places[i], sample_set_of(job, scratch.row_samples[i]), i, places);
+    rays.pixel[i] = i;
+  }
+  aim_rays(job, job.camera.kind, places, scratch.row_count, rays);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

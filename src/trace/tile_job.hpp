@@ -18,7 +18,7 @@ struct alignas(64) PathBatch : RayBatch {
   float weight_r[batch_size], weight_g[batch_size], weight_b[batch_size];
   std::int32_t media[max_media]
                     [batch_size]; // materials, innermost first; -1: none. Kept when the scene refracts.
-  std::int32_t pixel[batch_size]; // place in the tile's order
+  std::int32_t pixel[batch_size]; // row of `radiance`: the place in the tile's order, or a row of take_rows()
   float width[batch_size];        // of the ray's footprint where it starts. Kept when the scene has textures.
   int depth;
 };
@@ -74,6 +74,9 @@ struct TileScratch {
   float lobe_r[batch_size], lobe_g[batch_size], lobe_b[batch_size]; // of samples in the filter's lobes
   std::int32_t places[batch_size]; // in the tile, of the pixels that get samples
   int place_count;
+  // Of several samples of few pixels in one batch: the place and the sample of each row of `radiance`.
+  std::int32_t row_places[batch_size], row_samples[batch_size];
+  int row_count;
   std::int32_t first_primitive[batch_size];
   bool recording; // AOVs, while the rays of the pixels' centres are traced
   AovScratch aov;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Whitted loop of one tile: an explicit stack of ray batches, no recursion. A batch's own light is added
-// first, then everything below its reflected rays, then everything below its refracted ones: the reflected
-// batch goes on top. A batch holds at most one ray per pixel, so every pixel gets its contributions in that
-// order.
+// The Whitted loop of a batch of camera rays: an explicit stack of ray batches, no recursion. A batch's own
+// light is added first, then everything below its reflected rays, then everything below its refracted ones:
+// the reflected batch goes on top. A batch holds at most one ray per row of `radiance`, so each gets its
+// contributions in that order.
 #pragma once
 
 #include "src/trace/aov.hpp"
-#include "src/trace/camera_rays.hpp"
 #include "src/trace/secondary.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -132,35 +131,10 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   push(scratch, reflected);
 }
 
-FASTRT_INLINE void clear(float* r, float* g, float* b) {
-  for (int i = 0; i < batch_size; i += widest)
-    store3(broadcast3<PathF>(0.0F, 0.0F, 0.0F), r + i, g + i, b + i);
-}
-
-// sum = sum + radiance of one sample.
-FASTRT_INLINE void add_sample(const TileScratch& scratch, float* sum_r, float* sum_g, float* sum_b) {
-  for (int i = 0; i < batch_size; i += widest) {
-    const PathV sum = load3<PathF>(sum_r + i, sum_g + i, sum_b + i);
-    const PathV radiance =
-        load3<PathF>(scratch.radiance_r + i, scratch.radiance_g + i, scratch.radiance_b + i);
-    store3(sum + radiance, sum_r + i, sum_g + i, sum_b + i);
-  }
-}
-
-FASTRT_INLINE void put_color(float* to, long pixel, float r, float g, float b) {
-  to[3 * pixel] = r;
-  to[3 * pixel + 1] = g;
-  to[3 * pixel + 2] = b;
-}
-
-// One sample of every place into `radiance`, or with index -1 the pixels' centres.
-static void trace_sample(const TileJob& job, int index, TileScratch& scratch,
-                         TileRayCounts& counts) noexcept {
-  clear(scratch.radiance_r, scratch.radiance_g, scratch.radiance_b);
-  PathBatch& camera_rays = take_batch(scratch, 0);
-  make_camera_rays(job, index, scratch, camera_rays);
+// All that follows from a batch of camera rays. first: the primitives that they see are to be kept.
+static void trace_tree(const TileJob& job, PathBatch& camera_rays, bool first, TileScratch& scratch,
+                       TileRayCounts& counts) noexcept {
   push(scratch, camera_rays);
-  bool first = index <= 0;
   while (scratch.waiting_count != 0) {
     PathBatch& batch = *scratch.waiting[--scratch.waiting_count];
     trace_paths(job, batch, scratch, counts);
@@ -169,91 +143,6 @@ static void trace_sample(const TileJob& job, int index, TileScratch& scratch,
     first = false;
     give_back(scratch, batch);
   }
-}
-
-// The tile's pixels into the frame.
-static void write_tile(const TileJob& job, const TileScratch& scratch) noexcept {
-  const bool one = job.last_sample == 0;
-  const SampleWeights weights = sample_weights(job.filter, static_cast<std::uint32_t>(job.last_sample));
-  for (int i = 0; i < batch_size; ++i) {
-    if (!in_frame(job, i)) continue;
-    const long pixel = frame_pixel(job, i);
-    if (one)
-      put_color(job.rgb, pixel, scratch.radiance_r[i], scratch.radiance_g[i], scratch.radiance_b[i]);
-    else
-      put_color(job.rgb, pixel, resolve_channel(weights, scratch.sum_r[i], scratch.lobe_r[i]),
-                resolve_channel(weights, scratch.sum_g[i], scratch.lobe_g[i]),
-                resolve_channel(weights, scratch.sum_b[i], scratch.lobe_b[i]));
-    job.primitive[pixel] = scratch.first_primitive[i];
-  }
-}
-
-// Adaptive sampling goes on from the sums of earlier rounds; the film makes colours of them.
-static void load_sums(const TileJob& job, TileScratch& scratch) noexcept {
-  for (int i = 0; i < scratch.place_count; ++i) {
-    const int place = scratch.places[i];
-    if (!in_frame(job, place)) continue;
-    const float* const sum = job.round.sum + 3 * frame_pixel(job, place);
-    scratch.sum_r[place] = sum[0];
-    scratch.sum_g[place] = sum[1];
-    scratch.sum_b[place] = sum[2];
-    if (job.round.lobe_sum == nullptr) continue;
-    const float* const lobe = job.round.lobe_sum + 3 * frame_pixel(job, place);
-    scratch.lobe_r[place] = lobe[0];
-    scratch.lobe_g[place] = lobe[1];
-    scratch.lobe_b[place] = lobe[2];
-  }
-}
-
-static void store_sums(const TileJob& job, const TileScratch& scratch) noexcept {
-  for (int i = 0; i < scratch.place_count; ++i) {
-    const int place = scratch.places[i];
-    if (!in_frame(job, place)) continue;
-    const long pixel = frame_pixel(job, place);
-    put_color(job.round.sum, pixel, scratch.sum_r[place], scratch.sum_g[place], scratch.sum_b[place]);
-    if (job.round.lobe_sum != nullptr)
-      put_color(job.round.lobe_sum, pixel, scratch.lobe_r[place], scratch.lobe_g[place],
-                scratch.lobe_b[place]);
-    if (job.first_sample == 0) job.primitive[pixel] = scratch.first_primitive[place];
-  }
-}
-
-// All samples of the job into the sums.
-static void take_samples(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
-  clear(scratch.sum_r, scratch.sum_g, scratch.sum_b);
-  clear(scratch.lobe_r, scratch.lobe_g, scratch.lobe_b);
-  if (job.round.sum != nullptr) load_sums(job, scratch);
-  for (int sample = job.first_sample; sample < job.last_sample; ++sample) {
-    trace_sample(job, sample, scratch, counts);
-    if (in_lobe(job.filter, static_cast<std::uint32_t>(sample)))
-      add_sample(scratch, scratch.lobe_r, scratch.lobe_g, scratch.lobe_b);
-    else
-      add_sample(scratch, scratch.sum_r, scratch.sum_g, scratch.sum_b);
-  }
-}
-
-static void render_tile(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
-  const auto pixels = static_cast<std::uint64_t>(pick_places(job, scratch));
-  if (pixels == 0) return;
-  if (job.aovs.any) {
-    begin_recording(scratch);
-    trace_sample(job, -1, scratch, counts);
-    end_recording(job, scratch);
-    counts.primary += pixels;
-  }
-  if (job.last_sample == 0) {
-    if (!job.aovs.any) {
-      trace_sample(job, -1, scratch, counts);
-      counts.primary += pixels;
-    }
-  } else {
-    take_samples(job, scratch, counts);
-    counts.primary += pixels * static_cast<std::uint64_t>(job.last_sample - job.first_sample);
-  }
-  if (job.round.sum != nullptr)
-    store_sums(job, scratch);
-  else
-    write_tile(job, scratch);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
