@@ -30,7 +30,10 @@ std::vector<unsigned char> encode_image(const std::string& format, std::span<con
 
 // The picture and its AOVs as one EXR of 32-bit channels: R G B, then "depth", "normal.X" and so on
 // (aov_info). Ids are unsigned integers counted from 1: 0 is the background.
-std::vector<unsigned char> encode_layers(const Frame& frame, int threads = 0);
+// The file's attribute "fastrt:objects" has a line for each of `objects` (SceneDesc::object_names), in the
+// order of their ids.
+std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std::string> objects = {},
+                                         int threads = 0);
 
 // One of the frame's AOVs as a picture, linear RGB, to be looked at or read back from 8 bits: ids are
 // red + 256 * green + 65536 * blue of its sRGB codes, counted from 1; normals are n / 2 + 1 / 2; depth is

@@ -248,7 +248,7 @@ int run(const Options& options, Clock::time_point start) {
   save_extra_files(extra_files, frame, stats.threads);
   if (!output.empty() && signal_received() == 0) {
     save(output, extra_files.layers_in_picture
-                     ? encode_layers(frame, stats.threads)
+                     ? encode_layers(frame, tracer.scene().desc().object_names, stats.threads)
                      : encode_image(format_of(output), frame.rgb, frame.width, frame.height, stats.threads));
     stats.output = output.string();
   }

@@ -73,10 +73,21 @@ Pixel of_normal(const float* n) {
   return {0.5F * n[0] + 0.5F, 0.5F * n[1] + 0.5F, 0.5F * n[2] + 0.5F};
 }
 
+// A line each: what would end a line, or the text, becomes a blank.
+std::string lines_of(std::span<const std::string> names) {
+  std::string lines;
+  for (const std::string& name : names) {
+    for (const char c : name) lines += c == '\n' || c == '\0' ? ' ' : c;
+    lines += '\n';
+  }
+  return lines;
+}
+
 } // namespace
 
-std::vector<unsigned char> encode_layers(const Frame& frame, int threads) {
-  Channels channels{{"R", "G", "B"}, {0, 0, 0}, {}, frame.width, frame.height, threads};
+std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std::string> objects,
+                                         int threads) {
+  Channels channels{{"R", "G", "B"}, {0, 0, 0}, {}, frame.width, frame.height, threads, lines_of(objects)};
   for (const AovPlane& plane : frame.aovs) {
     const AovInfo& info = aov_info(plane.aov);
     for (std::size_t c = 0; c < static_cast<std::size_t>(info.channels); ++c) {

@@ -27,6 +27,7 @@ struct Channels {
   std::vector<std::uint32_t> values; // names.size() values a pixel, floats by their bits
   int width, height;
   int threads;
+  std::string objects; // attribute "fastrt:objects"; empty: none
 };
 
 // exr, hdr, jpg and jpeg, by the module that holds OpenImageIO.

@@ -80,6 +80,7 @@ Bytes encode_exr(const Channels& channels) {
   request.channels = static_cast<int>(names.size());
   request.channel_names = names.data();
   request.is_integer = channels.is_integer.data();
+  request.objects = channels.objects.empty() ? nullptr : channels.objects.c_str();
   return encode(request);
 }
 

@@ -91,13 +91,24 @@ TEST(AovPicture, ShowsNumbersInTheirRange) {
   EXPECT_EQ(codes_of({Aov::uv, {0.5F, 3.25F}, {}}), (std::vector<int>{128, 64, 0}));
 }
 
-// One channel of a file by its name: its bits; false if there is none or it is of another type.
-bool read_channel(const fs::path& file, const char* name, bool integer, std::vector<std::uint32_t>& bits) {
-  using Read = int(const char*, const char*, int, std::uint32_t*, std::size_t);
+template <class Function>
+Function* reader(const char* name) {
   const fs::path module = fs::read_symlink("/proc/self/exe").parent_path() / "oiio_reader.so";
   void* library = dlopen(module.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error(dlerror());
-  auto* read = reinterpret_cast<Read*>(dlsym(library, "read_channel"));
+  return reinterpret_cast<Function*>(dlsym(library, name));
+}
+
+std::string read_attribute(const fs::path& file, const char* name) {
+  using Read = int(const char*, const char*, char*, std::size_t);
+  std::array<char, 256> text{};
+  return reader<Read>("read_attribute")(file.c_str(), name, text.data(), text.size()) != 0 ? text.data() : "";
+}
+
+// One channel of a file by its name: its bits; false if there is none or it is of another type.
+bool read_channel(const fs::path& file, const char* name, bool integer, std::vector<std::uint32_t>& bits) {
+  using Read = int(const char*, const char*, int, std::uint32_t*, std::size_t);
+  auto* read = reader<Read>("read_channel");
   return read(file.c_str(), name, integer ? 1 : 0, bits.data(), bits.size()) != 0;
 }
 
@@ -113,7 +124,8 @@ TEST(EncodeLayers, HoldsEveryBitUnderItsName) {
       id = static_cast<std::int32_t>(++next) + 0x7654320F; // more than 24 bits
   }
   const fs::path file = fs::temp_directory_path() / ("fastrt-layers-" + std::to_string(getpid()) + ".exr");
-  const std::vector<unsigned char> bytes = encode_layers(frame, 2);
+  const std::vector<std::string> objects = {"floor", "two\nlines", ""};
+  const std::vector<unsigned char> bytes = encode_layers(frame, objects, 2);
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   std::vector<std::uint32_t> bits(6);
@@ -136,6 +148,7 @@ TEST(EncodeLayers, HoldsEveryBitUnderItsName) {
     }
   }
   EXPECT_FALSE(read_channel(file, "nonsense", false, bits));
+  EXPECT_EQ(read_attribute(file, "fastrt:objects"), "floor\ntwo lines\n\n");
   fs::remove(file);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 // Returns the number of values of the picture in `file`, 0 if it can't be read; fills at most `capacity` of
 // them. Bytes come as value / 255.
@@ -19,6 +20,17 @@ extern "C" std::size_t read_picture(const char* file, float* values, std::size_t
   const std::size_t count = spec.image_pixels() * static_cast<std::size_t>(spec.nchannels);
   if (count > capacity) return count;
   return input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values) ? count : 0;
+}
+
+// An attribute of a file, cut off at `capacity` with its end; 0 if there is none.
+extern "C" int read_attribute(const char* file, const char* name, char* text, std::size_t capacity) {
+  const auto input = OIIO::ImageInput::open(file);
+  if (!input) return 0;
+  const std::string found(input->spec().get_string_attribute(name));
+  const std::size_t count = std::min(found.size(), capacity - 1);
+  found.copy(text, count);
+  text[count] = '\0';
+  return found.empty() ? 0 : 1;
 }
 
 // The bits of one channel of 32 bits, `count` pixels; 0 if the file has none of this name, type and size.

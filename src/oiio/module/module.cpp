@@ -37,6 +37,7 @@ OIIO::ImageSpec spec_of(const OiioPicture& picture) {
     spec.channelformats.push_back(picture.is_integer[c] != 0 ? OIIO::TypeDesc::UINT32
                                                              : OIIO::TypeDesc::FLOAT);
   }
+  if (picture.objects != nullptr) spec.attribute("fastrt:objects", picture.objects);
   spec.attribute("Software", "fastrt");
   spec.attribute("oiio:ColorSpace", picture.is_float != 0 ? "Linear" : "sRGB");
   if (format == "jpg" || format == "jpeg") {
@@ -146,7 +147,7 @@ int decode(const OiioFile& file, OiioTexture& texture) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_2(const OiioPicture* picture,
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_3(const OiioPicture* picture,
                                                                            OiioResult* result) {
   try {
     return encode(*picture, *result);

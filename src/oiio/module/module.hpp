@@ -8,7 +8,7 @@
 namespace fastrt {
 
 inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
-inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_2"; // the number changes with the types
+inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_3"; // the number changes with the types
 
 struct OiioPicture {
   const char* format; // an extension without the dot
@@ -21,6 +21,7 @@ struct OiioPicture {
   // integers and no floats.
   const char* const* channel_names;
   const unsigned char* is_integer;
+  const char* objects; // an attribute of the file, or null
 };
 
 struct OiioResult {
