@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/camera.hpp>
 #include <fastrt/column.hpp>
 #include <fastrt/light.hpp>
 #include <fastrt/material.hpp>
 #include <fastrt/math.hpp>
 #include <fastrt/texture.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +51,40 @@ struct SphereColumns {
   std::size_t size() const noexcept { return x.size(); }
 };
 
+// Cones between two circles, whose middles are `base` and `apex` (not the same point) and whose planes are
+// square to the line between them: cylinders where the radii are equal, pointed where one is 0. Radii are
+// not negative, and not both 0. capped: 0 for the mantle alone, 1 with a disc at each end.
+struct ConeColumns {
+  Columns3 base, apex;
+  Column<float> base_radius, apex_radius;
+  Column<std::uint32_t> capped;
+  Column<std::uint32_t> material, object;
+  std::size_t size() const noexcept { return base_radius.size(); }
+};
+
+struct DiskColumns {
+  Columns3 center, normal; // the normal may have any length but 0
+  Column<float> radius;    // > 0
+  Column<std::uint32_t> material, object;
+  std::size_t size() const noexcept { return radius.size(); }
+};
+
+// Planar polygons of one or more closed contours each, of at least three vertices; what an odd number of
+// contours surrounds is inside. vertex: indices of positions, contour after contour. Contour c ends before
+// vertex[vertex_end[c]], polygon i before contour contour_end[i].
+struct PolygonColumns {
+  Column<std::uint32_t> vertex, vertex_end, contour_end;
+  Column<std::uint32_t> material, object;
+  std::size_t size() const noexcept { return contour_end.size(); }
+};
+
+// Infinite planes through a point. The normal may have any length but 0.
+struct PlaneColumns {
+  Columns3 point, normal;
+  Column<std::uint32_t> material, object;
+  std::size_t size() const noexcept { return point.size(); }
+};
+
 // A scene while it is being put together: what readers and SceneBuilder fill, and Scene freezes.
 struct SceneDesc {
   Columns3 positions, normals;
@@ -54,19 +92,30 @@ struct SceneDesc {
   Columns3 colors; // linear RGB of each position, or empty
   TriangleColumns triangles;
   SphereColumns spheres;
-  std::vector<Material> materials;       // triangles.material and spheres.material index these
+  ConeColumns cones;
+  DiskColumns disks;
+  PolygonColumns polygons;
+  PlaneColumns planes;
+  std::vector<Material> materials;       // the primitives' material columns index these
   std::vector<Texture> textures;         // materials index these
-  std::vector<std::string> object_names; // triangles.object and spheres.object index these
+  std::vector<std::string> object_names; // the primitives' object columns index these
   std::vector<Light> lights;
   Vec3 ambient{0.0F};    // Ia
   Vec3 background{0.0F}; // what a ray that hits nothing sees
+
+  // What a scene file says of the picture to be made of it; Scene itself does not look at it.
+  std::optional<Camera> camera;
+  int width = 0, height = 0; // pixels; 0 where the file does not say
 };
 
 // The kinds of primitive, in the order in which they share the primitive ids.
-enum class PrimitiveKind : std::uint32_t { triangle, sphere };
+enum class PrimitiveKind : std::uint32_t { triangle, sphere, cone, disk, polygon, plane };
+inline constexpr std::size_t primitive_kinds = 6;
 
-// An immutable scene. Primitive ids run from 0: first all triangles, then all spheres, each in the order
-// given.
+struct SceneShapes; // of the library alone
+
+// An immutable scene. Primitive ids run from 0: first all triangles, then all spheres and so on in the order
+// of PrimitiveKind, each in the order given.
 class Scene {
 public:
   // Checks every index, number, material and light; throws InputError at the first that can't be used and
@@ -82,24 +131,35 @@ public:
   const std::vector<Texture>& textures() const noexcept { return desc_.textures; }
   const std::vector<Light>& lights() const noexcept { return desc_.lights; }
 
-  std::uint32_t triangle_count() const noexcept { return static_cast<std::uint32_t>(desc_.triangles.size()); }
-  std::uint32_t sphere_count() const noexcept { return static_cast<std::uint32_t>(desc_.spheres.size()); }
-  std::uint32_t primitive_count() const noexcept { return triangle_count() + sphere_count(); }
+  std::uint32_t triangle_count() const noexcept { return count_of(PrimitiveKind::triangle); }
+  std::uint32_t sphere_count() const noexcept { return count_of(PrimitiveKind::sphere); }
+  std::uint32_t primitive_count() const noexcept { return first_[primitive_kinds]; }
+  std::uint32_t count_of(PrimitiveKind kind) const noexcept {
+    return first_[static_cast<std::size_t>(kind) + 1] - first_[static_cast<std::size_t>(kind)];
+  }
+  // The id of the first primitive of a kind, whether or not there is one.
+  std::uint32_t first_of(PrimitiveKind kind) const noexcept { return first_[static_cast<std::size_t>(kind)]; }
   PrimitiveKind kind(std::uint32_t primitive) const noexcept {
-    return primitive < triangle_count() ? PrimitiveKind::triangle : PrimitiveKind::sphere;
+    std::size_t kind = 0;
+    while (kind + 1 < primitive_kinds && primitive >= first_[kind + 1]) ++kind;
+    return static_cast<PrimitiveKind>(kind);
   }
   std::uint32_t material_of(std::uint32_t primitive) const noexcept;
   std::uint32_t object_of(std::uint32_t primitive) const noexcept;
 
-  // The box around all primitives; empty for an empty scene.
+  // The box around all primitives but planes; empty if there are none.
   const Aabb& bounds() const noexcept { return bounds_; }
   // Whether some material lets light through, so that shadows have colours.
   bool has_transmission() const noexcept { return has_transmission_; }
   // Bytes held by the columns.
   std::size_t bytes() const noexcept;
 
+  const SceneShapes& shapes() const noexcept { return *shapes_; } // of the library alone
+
 private:
   SceneDesc desc_;
+  std::array<std::uint32_t, primitive_kinds + 1> first_{}; // ids
+  std::shared_ptr<const SceneShapes> shapes_;
   Aabb bounds_;
   bool has_transmission_ = false;
 };
@@ -116,6 +176,19 @@ public:
                          std::uint32_t material, std::span<const Vec3> normals = {}, std::string name = {},
                          std::span<const Vec2> uvs = {}, std::span<const Vec3> colors = {});
   std::uint32_t add_sphere(const Vec3& center, float radius, std::uint32_t material, std::string name = {});
+  // Radii at least 0. capped: with a disc at each end, else the mantle alone.
+  std::uint32_t add_cone(const Vec3& base, float base_radius, const Vec3& apex, float apex_radius,
+                         std::uint32_t material, bool capped = true, std::string name = {});
+  std::uint32_t add_cylinder(const Vec3& base, const Vec3& apex, float radius, std::uint32_t material,
+                             bool capped = true, std::string name = {});
+  std::uint32_t add_disk(const Vec3& center, const Vec3& normal, float radius, std::uint32_t material,
+                         std::string name = {});
+  // A planar polygon of one contour or more; what an odd number of them surrounds is inside, so that a
+  // contour within another is a hole.
+  std::uint32_t add_polygon(std::span<const std::vector<Vec3>> contours, std::uint32_t material,
+                            std::string name = {});
+  std::uint32_t add_plane(const Vec3& point, const Vec3& normal, std::uint32_t material,
+                          std::string name = {});
   void add_light(const Light& light) { desc_.lights.push_back(light); }
   void set_ambient(const Vec3& ambient) { desc_.ambient = ambient; }
   void set_background(const Vec3& background) { desc_.background = background; }
@@ -123,6 +196,8 @@ public:
   Scene build();
 
 private:
+  std::uint32_t add_object(std::string name);
+
   SceneDesc desc_;
 };
 

@@ -31,7 +31,9 @@ struct RayArrays {
 };
 
 // Where closest_hit writes, `count` of each. On a miss: t = t_max, primitive = no_primitive, u = v = 0.
-// (u, v) of a triangle weigh its second and third vertex; a sphere's are 0.
+// (u, v) of a triangle weigh its second and third vertex. Around and up: u of spheres and cones goes once
+// around the axis (a sphere's is y), v from the lower end to the upper one; a disk's v from its middle to its
+// rim. On polygons and planes they are lengths along two directions of the plane.
 // u and v may be null.
 struct HitArrays {
   float* t;

@@ -141,8 +141,10 @@ double RunStats::mrays_per_second() const {
 std::string summary_line(const RunStats& stats) {
   std::string line = stats.output.empty() ? "no picture kept" : printable(stats.output);
   line += ": " + std::to_string(stats.width) + "x" + std::to_string(stats.height);
-  if (stats.triangles != 0 || stats.spheres == 0) line += ", " + count(stats.triangles, "triangle");
+  if (stats.triangles != 0 || stats.spheres + stats.shapes == 0)
+    line += ", " + count(stats.triangles, "triangle");
   if (stats.spheres != 0) line += ", " + count(stats.spheres, "sphere");
+  if (stats.shapes != 0) line += ", " + count(stats.shapes, "shape");
   line += ", " + std::to_string(stats.samples_per_pixel);
   if (stats.most_samples != 0) line += " to " + std::to_string(stats.most_samples);
   line += " spp, ";
@@ -157,7 +159,8 @@ std::string stats_text(const RunStats& stats) {
   const RayCounts& rays = stats.rays;
   const BvhStats& bvh = stats.bvh;
   std::string text = "scene    " + count(stats.triangles, "triangle") + ", " +
-                     count(stats.spheres, "sphere") + ", " + count(stats.lights, "light") + ", " +
+                     count(stats.spheres, "sphere") + ", " + count(stats.shapes, "shape") + ", " +
+                     count(stats.lights, "light") + ", " +
                      short_number(mega(static_cast<double>(stats.scene_bytes))) + " MB\n";
   text += "engine   " + std::string(isa_name(stats.isa)) + ", " +
           count(std::size_t(stats.threads), "thread") + "\n";
@@ -192,6 +195,7 @@ std::string stats_json(const RunStats& stats) {
   object.add("threads", stats.threads);
   object.add("triangles", std::uint64_t{stats.triangles});
   object.add("spheres", std::uint64_t{stats.spheres});
+  object.add("shapes", std::uint64_t{stats.shapes});
   object.add("lights", std::uint64_t{stats.lights});
   object.raw("seconds", seconds_json(stats));
   object.raw("rays", rays_json(stats.rays));

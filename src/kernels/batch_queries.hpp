@@ -14,9 +14,29 @@ FASTRT_INLINE void clear_hits(const RayBatch& rays, HitBatch& hits) {
   }
 }
 
+// The planes, which no tree holds: after it, so that it culls by its own hits alone.
+[[gnu::noinline]] static void meet_planes(const ShapeView& shapes, const RayBatch& rays,
+                                          HitBatch& hits) noexcept {
+  for (int i = 0; i < rays.count; i += widest) {
+    const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+    const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+    const PacketF t_min = load<PacketF>(rays.t_min + i);
+    const PacketI exclude = load<PacketI>(rays.exclude + i);
+    PacketF t = PacketF::load_aligned(hits.t + i);
+    PacketI primitive = PacketI::load_aligned(hits.primitive + i);
+    const PacketM live = traceable_lanes(origin, dir, rays.count - i);
+    for (std::uint32_t p = 0; p < shapes.plane_count; ++p) {
+      const ShapeLanes<PacketF> met = intersect_plane(shapes.planes[p], origin, dir, t_min);
+      keep_closest(t, primitive, exclude, met.hit & live, met.t,
+                   shapes.first_plane + static_cast<std::int32_t>(p));
+    }
+    t.store_aligned(hits.t + i);
+    primitive.store_aligned(hits.primitive + i);
+  }
+}
+
 template <bool any>
-static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
-  clear_hits(rays, hits);
+static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   if (scene.root == no_child) return;
   if (rays.shape == BatchShape::any) {
     trace_rays_alone<any>(scene, rays, hits);
@@ -25,6 +45,13 @@ static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatc
   const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;
   if (alike && trace_tile<any>(scene, rays, hits)) return;
   for (int first = 0; first < rays.count; first += widest) trace_packet<any>(scene, rays, hits, first);
+}
+
+template <bool any>
+static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  clear_hits(rays, hits);
+  trace_tree<any>(scene, rays, hits);
+  if (scene.shapes.plane_count != 0) meet_planes(scene.shapes, rays, hits);
 }
 
 // The closest hit of every ray: t = t_max and primitive = -1 on a miss.

@@ -28,7 +28,7 @@ struct KernelTable {
   void (*closest_hits)(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept;
   // Only whether primitive >= 0 means anything in `hits`.
   void (*any_hits)(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept;
-  // (u, v) of the hits of a batch: 0 for spheres and misses.
+  // (u, v) of the hits of a batch: 0 for misses.
   void (*hit_weights)(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, float* u,
                       float* v) noexcept;
   void (*render_tile)(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept;

@@ -44,9 +44,9 @@ FASTRT_INLINE Packet load_packet(const GeometryView& scene, const RayBatch& rays
 }
 
 // Lanes that hold a live ray with a finite origin and a direction.
-FASTRT_INLINE PacketM traceable_lanes(const Packet& p, int live) {
-  const PacketF origin = ((abs(p.origin.x) + abs(p.origin.y)) + abs(p.origin.z)) * PacketF(0.0F);
-  const PacketF dir = (abs(p.dir.x) + abs(p.dir.y)) + abs(p.dir.z);
+FASTRT_INLINE PacketM traceable_lanes(const V3<PacketF>& origins, const V3<PacketF>& dirs, int live) {
+  const PacketF origin = ((abs(origins.x) + abs(origins.y)) + abs(origins.z)) * PacketF(0.0F);
+  const PacketF dir = (abs(dirs.x) + abs(dirs.y)) + abs(dirs.z);
   const std::uint32_t bits = live >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << live) - 1U;
   return (origin == PacketF(0.0F)) & (dir > PacketF(0.0F)) & (dir < PacketF(__builtin_inff())) &
          from_bits<widest>(bits);
@@ -71,8 +71,38 @@ FASTRT_INLINE V3<PacketF> vertex(const TriangleBlock& block, int v, int i) {
   return broadcast3<PacketF>(block.x[v][i], block.y[v][i], block.z[v][i]);
 }
 
+// The packet's slab test against a box.
+FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, float low_x, float high_x, float low_y,
+                                          float high_y, float low_z, float high_z) {
+  const PacketF zero(0.0F);
+  // Rays of one packet may point either way, so each lane picks its own planes. The inverse of -0 is -inf, so
+  // its sign is that of the direction's sign bit.
+  const PacketM x = p.x.inverse < zero, y = p.y.inverse < zero, z = p.z.inverse < zero;
+  const PacketF lx(low_x), ux(high_x), ly(low_y), uy(high_y), lz(low_z), uz(high_z);
+  return intersect_slabs(p.x, p.y, p.z, V3<PacketF>{select(x, ux, lx), select(y, uy, ly), select(z, uz, lz)},
+                         V3<PacketF>{select(x, lx, ux), select(y, ly, uy), select(z, lz, uz)}, p.t_min,
+                         depth_bound(p.t));
+}
+
+// The packet against the shapes of a leaf, each met by those rays that meet its box.
+[[gnu::noinline]] static void meet_shapes(const GeometryView& scene, Packet& p, std::uint32_t active,
+                                          std::uint32_t leaf) noexcept {
+  const ShapeBlock* block = scene.shape_blocks + leaf_first_block(leaf);
+  for (const ShapeBlock* const end = block + leaf_blocks(leaf); block != end; ++block)
+    for (int i = 0; i < block_size && block->primitive[i] >= 0; ++i) {
+      const SlabLanes<PacketF> slab = meet_box(p, block->low_x[i], block->high_x[i], block->low_y[i],
+                                               block->high_y[i], block->low_z[i], block->high_z[i]);
+      if ((to_bits(slab.near <= slab.far) & active) == 0) continue;
+      const ShapeLanes<PacketF> met =
+          intersect_shape(scene.shapes, block->primitive[i], p.origin, p.dir, p.t_min);
+      const PacketM hit = met.hit & from_bits<widest>(active);
+      if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, met.t, block->primitive[i]);
+    }
+}
+
 FASTRT_INLINE void meet_leaf(const GeometryView& scene, Packet& p, const PacketM& active,
                              std::uint32_t leaf) {
+  if (leaf_group(leaf) == shape_group) return meet_shapes(scene, p, to_bits(active), leaf);
   const std::uint32_t first = leaf_first_block(leaf);
   const std::uint32_t end = first + leaf_blocks(leaf);
   for (std::uint32_t b = first; b != end; ++b)
@@ -100,15 +130,8 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, Packet& p, const PacketM
 
 // The packet's slab test against child i of a node.
 FASTRT_INLINE SlabLanes<PacketF> meet_child(const Packet& p, const WideNode& node, int i) {
-  const PacketF zero(0.0F);
-  // Rays of one packet may point either way, so each lane picks its own planes. The inverse of -0 is -inf, so
-  // its sign is that of the direction's sign bit.
-  const PacketM x = p.x.inverse < zero, y = p.y.inverse < zero, z = p.z.inverse < zero;
-  const PacketF lx(node.lower_x[i]), ux(node.upper_x[i]), ly(node.lower_y[i]), uy(node.upper_y[i]),
-      lz(node.lower_z[i]), uz(node.upper_z[i]);
-  return intersect_slabs(p.x, p.y, p.z, V3<PacketF>{select(x, ux, lx), select(y, uy, ly), select(z, uz, lz)},
-                         V3<PacketF>{select(x, lx, ux), select(y, ly, uy), select(z, lz, uz)}, p.t_min,
-                         depth_bound(p.t));
+  return meet_box(p, node.lower_x[i], node.upper_x[i], node.lower_y[i], node.upper_y[i], node.lower_z[i],
+                  node.upper_z[i]);
 }
 
 FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, std::uint32_t child,
@@ -143,7 +166,7 @@ template <bool any>
 static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
                          int first) noexcept {
   Packet p = load_packet(scene, rays, hits, first);
-  const std::uint32_t live = to_bits(traceable_lanes(p, rays.count - first));
+  const std::uint32_t live = to_bits(traceable_lanes(p.origin, p.dir, rays.count - first));
   if (live == 0) return;
   PacketEntry stack[max_tree_stack];
   stack[0].child = scene.root;

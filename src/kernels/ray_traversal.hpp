@@ -4,8 +4,7 @@
 // its node while others go on.
 #pragma once
 
-#include "src/kernels/leaf_lanes.hpp"
-#include "src/kernels/slab.hpp"
+#include "src/kernels/shape_leaves.hpp"
 #include "src/kernels/sphere.hpp"
 #include "src/trace/ray_batch.hpp"
 
@@ -132,8 +131,10 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, LoneRay& ray, std::uint3
   const auto meet = [&](const auto& run) { meet_run(ray, run); };
   if (leaf_group(leaf) == triangle_group)
     for_each_run(scene.triangles, leaf, meet);
-  else
+  else if (leaf_group(leaf) == sphere_group)
     for_each_run(scene.spheres, leaf, meet);
+  else
+    meet_shapes(scene, ray, leaf);
 }
 
 FASTRT_INLINE SlabAxis<Floats<node_lanes>> spread_axis(const SlabAxis<float>& axis) {

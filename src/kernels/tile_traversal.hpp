@@ -228,13 +228,54 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<SphereBlock
   }
 }
 
+// The rectangles of a run's shapes: those of their boxes.
+FASTRT_INLINE Rectangles<LeafF> project_boxes(const TileFrame& f, const BlockRun<ShapeBlock>& run) {
+  const V3<LeafF> low = load_low(run), high = load_high(run);
+  const V3<LeafF> half = (high - low) * LeafF(0.5F);
+  const V3<LeafF> middle = (low + half) - broadcast3<LeafF>(f.origin);
+  const LeafF padding(f.padding);
+  const auto at = [&](const V3<float>& axis) { return dot(middle, broadcast3<LeafF>(axis)); };
+  const auto reach = [&](const V3<float>& axis) {
+    const V3<LeafF> a = broadcast3<LeafF>(axis);
+    return ((abs(a.x) * half.x + abs(a.y) * half.y) + abs(a.z) * half.z) + padding;
+  };
+  const LeafF u = at(f.u), v = at(f.v), w = at(f.w), ru = reach(f.u), rv = reach(f.v), rw = reach(f.w);
+  return project_extent(f, u - ru, u + ru, v - rv, v + rv, w - rw, w + rw);
+}
+
+template <bool any>
+[[gnu::noinline]] static void meet_shapes(TileTraversal<any>& tile, std::uint32_t leaf,
+                                          std::uint32_t groups) noexcept {
+  for_each_run(tile.scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
+    std::uint32_t touched[leaf_lanes];
+    std::uint32_t some =
+        touch_groups(tile.view.groups, project_boxes(tile.view.frame, run), lanes_of(run), groups, touched);
+    for (; some != 0; some &= some - 1) {
+      const int lane = __builtin_ctz(some);
+      const std::int32_t id = run.primitive(lane);
+      if (id < 0) continue;
+      for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
+        const int g = __builtin_ctz(left);
+        meet_group(tile, g, tile.open[g], id, [&](int ray) -> MetLanes {
+          const ShapeLanes<PacketF> met =
+              intersect_shape(tile.scene.shapes, id, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
+                              PacketF::load_aligned(tile.rays.t_min + ray));
+          return {met.hit, met.t};
+        });
+      }
+    }
+  });
+}
+
 template <bool any>
 FASTRT_INLINE void meet_leaf(TileTraversal<any>& tile, std::uint32_t leaf, std::uint32_t groups) {
   const auto meet = [&](const auto& run) { meet_run(tile, run, groups); };
   if (leaf_group(leaf) == triangle_group)
     for_each_run(tile.scene.triangles, leaf, meet);
-  else
+  else if (leaf_group(leaf) == sphere_group)
     for_each_run(tile.scene.spheres, leaf, meet);
+  else
+    meet_shapes(tile, leaf, groups);
 }
 
 // What will be looked at soon is asked for now: a miss beyond the last cache costs as much as testing a few
@@ -247,8 +288,11 @@ FASTRT_INLINE void prefetch_child(const GeometryView& scene, std::uint32_t child
   } else if (leaf_group(child) == triangle_group) {
     at = reinterpret_cast<const char*>(&scene.triangles[leaf_first_block(child)]);
     lines = 3;
-  } else {
+  } else if (leaf_group(child) == sphere_group) {
     at = reinterpret_cast<const char*>(&scene.spheres[leaf_first_block(child)]);
+    lines = 2;
+  } else {
+    at = reinterpret_cast<const char*>(&scene.shape_blocks[leaf_first_block(child)]);
     lines = 2;
   }
   for (int i = 0; i < lines; ++i) __builtin_prefetch(at + 64 * i);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray meets one primitive: docs/numerics.md, "Triangle" and "Sphere", operation by operation.
+// Where a ray meets one primitive: docs/numerics.md, "Triangle" and "Sphere", operation by operation. The
+// other kinds are in intersect_shapes.hpp.
 #pragma once
 
-#include "src/reference/arithmetic.hpp"
-#include "src/reference/ray.hpp"
+#include "src/reference/intersect_shapes.hpp"
 
 #include <fastrt/scene.hpp>
 
@@ -29,14 +29,6 @@ inline SphereShape sphere_shape(const Scene& scene, std::uint32_t sphere) {
   const SphereColumns& spheres = scene.spheres();
   return {{spheres.x[sphere], spheres.y[sphere], spheres.z[sphere]}, spheres.radius[sphere]};
 }
-
-// Where a ray meets a primitive alone. t is meaningless when hit is false.
-struct Intersection {
-  bool hit;
-  float t;
-  float u;
-  float v;
-};
 
 // What the ray must reach of a triangle: its box seen from the origin, a little larger for the rounding.
 struct Reach {
@@ -137,13 +129,33 @@ inline Intersection intersect_sphere(const Ray& ray, const SphereShape& sphere) 
   const float near = min(t0, t1);
   const float far = max(t0, t1);
   const float t = near > ray.t_min ? near : far;
-  return {ray.t_min < t && t < ray.t_max, t, 0, 0};
+  const bool hit = ray.t_min < t && t < ray.t_max;
+  if (!hit) return {false, t, 0, 0};
+  // Around the y axis from x on, as from the outside to the right; and from the lowest point up.
+  const Vec3 n = f + t * d;
+  const float latitude = baseline::shared_turn<baseline::ScalarOps>(n.y, std::sqrt(n.x * n.x + n.z * n.z));
+  return {true, t, turn_of(-n.z, n.x), 0.5F + 2.0F * latitude};
 }
 
 inline Intersection intersect(const Ray& ray, const Scene& scene, std::uint32_t primitive) {
-  if (scene.kind(primitive) == PrimitiveKind::triangle)
-    return intersect_triangle(ray, triangle_vertices(scene, primitive));
-  return intersect_sphere(ray, sphere_shape(scene, primitive - scene.triangle_count()));
+  const PrimitiveKind kind = scene.kind(primitive);
+  const std::uint32_t row = primitive - scene.first_of(kind);
+  const SceneShapes& shapes = scene.shapes();
+  switch (kind) {
+  case PrimitiveKind::triangle:
+    return intersect_triangle(ray, triangle_vertices(scene, row));
+  case PrimitiveKind::sphere:
+    return intersect_sphere(ray, sphere_shape(scene, row));
+  case PrimitiveKind::cone:
+    return intersect_cone(ray, shapes.cones[row]);
+  case PrimitiveKind::disk:
+    return intersect_disk(ray, shapes.disks[row]);
+  case PrimitiveKind::polygon:
+    return intersect_polygon(ray, shapes.polygons[row], shapes.edges.data());
+  case PrimitiveKind::plane:
+    break;
+  }
+  return intersect_plane(ray, shapes.planes[row]);
 }
 
 // Keeps the closer of two hits; at equal t the one with the smaller id, so that the order in which primitives

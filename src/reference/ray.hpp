@@ -22,7 +22,7 @@ struct Ray {
 };
 
 // On a miss: t is the ray's t_max and primitive is no_primitive. (u, v) weigh a triangle's second and third
-// vertex; a sphere's are 0.
+// vertex; docs/numerics.md says what those of the other primitives are.
 struct Hit {
   float t = infinity;
   float u = 0;

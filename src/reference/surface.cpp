@@ -47,6 +47,64 @@ void fill_sphere(Surface& surface, const SphereShape& sphere, const Ray& ray, fl
   surface.magnitude = largest_magnitude(sphere.center) + sphere.radius;
 }
 
+float magnitude_of(const Aabb& box) {
+  return max(largest_magnitude(box.lower), largest_magnitude(box.upper));
+}
+
+// The point is put onto the mantle, or onto the disc at an end where that is closer.
+void fill_cone(Surface& surface, const ConeShape& cone, const Ray& ray, float t) {
+  const Vec3& u = cone.axis;
+  const Vec3 q = (ray.origin - cone.center) + t * ray.direction;
+  const float z = glm::dot(q, u);
+  const Vec3 g = q - z * u;
+  const float distance = std::sqrt(glm::dot(g, g));
+  const float height = min(max(z, -cone.half_height), cone.half_height);
+  const float radius = cone.radius + cone.slope * height;
+  const bool on_cap =
+      cone.capped && std::fabs(cone.half_height - std::fabs(z)) < std::fabs(distance - radius);
+  if (on_cap) {
+    surface.geometric_normal = u;
+    surface.point = cone.center + (std::copysign(cone.half_height, z) * u + g);
+  } else {
+    const Vec3 outward = g * (distance > 0.0F ? 1.0F / distance : 0.0F);
+    surface.geometric_normal = glm::normalize(outward - cone.slope * u);
+    surface.point = cone.center + (height * u + radius * outward);
+  }
+  surface.shading_normal = surface.geometric_normal;
+  surface.magnitude = magnitude_of(cone.box);
+}
+
+// The point is put into the plane.
+void fill_flat(Surface& surface, const Vec3& point, const Vec3& normal, const Ray& ray, const Hit& hit) {
+  const Vec3 q = ray.origin + hit.t * ray.direction;
+  surface.point = q - glm::dot(q - point, normal) * normal;
+  surface.geometric_normal = normal;
+  surface.shading_normal = normal;
+  surface.planar = hit.primitive;
+}
+
+void fill_shape(Surface& surface, const Scene& scene, const Ray& ray, const Hit& hit) {
+  const auto primitive = static_cast<std::uint32_t>(hit.primitive);
+  const PrimitiveKind kind = scene.kind(primitive);
+  const std::uint32_t row = primitive - scene.first_of(kind);
+  const SceneShapes& shapes = scene.shapes();
+  if (kind == PrimitiveKind::cone) {
+    fill_cone(surface, shapes.cones[row], ray, hit.t);
+  } else if (kind == PrimitiveKind::disk) {
+    const DiskShape& disk = shapes.disks[row];
+    fill_flat(surface, disk.center, disk.normal, ray, hit);
+    surface.magnitude = magnitude_of(disk.box);
+  } else if (kind == PrimitiveKind::polygon) {
+    const PolygonShape& polygon = shapes.polygons[row];
+    fill_flat(surface, polygon.point, polygon.normal, ray, hit);
+    surface.magnitude = magnitude_of(polygon.box);
+  } else {
+    const PlaneShape& plane = shapes.planes[row];
+    fill_flat(surface, plane.point, plane.normal, ray, hit);
+    surface.magnitude = max(largest_magnitude(plane.point), largest_magnitude(surface.point));
+  }
+}
+
 } // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
@@ -60,8 +118,10 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
   surface.material = scene.material_of(primitive);
   if (scene.kind(primitive) == PrimitiveKind::triangle)
     fill_triangle(surface, scene, primitive, hit);
-  else
+  else if (scene.kind(primitive) == PrimitiveKind::sphere)
     fill_sphere(surface, sphere_shape(scene, primitive - scene.triangle_count()), ray, hit.t);
+  else
+    fill_shape(surface, scene, ray, hit);
 
   if (glm::dot(surface.geometric_normal, ray.direction) > 0.0F)
     surface.geometric_normal = -surface.geometric_normal;

@@ -57,7 +57,10 @@ Site site_of(const Scene& scene, const Hit& hit, const Vec3& point) {
   Site site;
   site.point = point;
   const auto primitive = static_cast<std::uint32_t>(hit.primitive);
-  if (scene.kind(primitive) == PrimitiveKind::triangle) place_on_triangle(site, scene, primitive, hit);
+  if (scene.kind(primitive) == PrimitiveKind::triangle)
+    place_on_triangle(site, scene, primitive, hit);
+  else
+    site.uv = {hit.u, hit.v};
   return site;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/shapes.hpp"
 #include "src/scene/threads.hpp"
 
 #include <fastrt/load.hpp>
@@ -56,11 +57,31 @@ Aabb sphere_bounds(const SceneDesc& desc) {
   return bounds;
 }
 
+// Planes have no bounds.
+Aabb shape_bounds(const SceneDesc& desc) {
+  Aabb bounds;
+  const ConeColumns& c = desc.cones;
+  const std::size_t cones =
+      std::min({c.base.x.size(), c.base.y.size(), c.base.z.size(), c.apex.x.size(), c.apex.y.size(),
+                c.apex.z.size(), c.base_radius.size(), c.apex_radius.size()});
+  for (std::size_t i = 0; i < cones; ++i) bounds.extend(cone_box(c, i));
+  const DiskColumns& d = desc.disks;
+  const std::size_t disks =
+      std::min({d.center.x.size(), d.center.y.size(), d.center.z.size(), d.normal.x.size(), d.normal.y.size(),
+                d.normal.z.size(), d.radius.size()});
+  for (std::size_t i = 0; i < disks; ++i) bounds.extend(disk_box(d, i));
+  for (const std::uint32_t v : desc.polygons.vertex)
+    if (v < std::min({desc.positions.x.size(), desc.positions.y.size(), desc.positions.z.size()}))
+      bounds.extend(desc.positions[v]);
+  return bounds;
+}
+
 } // namespace
 
 Aabb bounds_of(const SceneDesc& desc) {
   Aabb bounds = triangle_bounds(desc);
   bounds.extend(sphere_bounds(desc));
+  bounds.extend(shape_bounds(desc));
   // Threads finish in any order, and -0 equals 0: adding 0 leaves only one of them.
   bounds.lower += 0.0F;
   bounds.upper += 0.0F;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/scene/scene_check.hpp"
+#include "src/scene/shapes.hpp"
 
 #include <fastrt/error.hpp>
 #include <fastrt/load.hpp>
@@ -33,6 +34,32 @@ std::size_t bytes_of(const Columns&... columns) {
   return (columns.bytes() + ... + 0);
 }
 
+// What a column of a primitive's kind holds for it. column_of: from the columns of a kind to the one.
+template <class ColumnOf>
+std::uint32_t row_of(const Scene& scene, std::uint32_t primitive, const ColumnOf& column_of) {
+  FASTRT_ASSERT_LT(primitive, scene.primitive_count());
+  const SceneDesc& desc = scene.desc();
+  const PrimitiveKind kind = scene.kind(primitive);
+  const std::uint32_t row = primitive - scene.first_of(kind);
+  switch (kind) {
+  case PrimitiveKind::triangle:
+    return column_of(desc.triangles)[row];
+  case PrimitiveKind::sphere:
+    return column_of(desc.spheres)[row];
+  case PrimitiveKind::cone:
+    return column_of(desc.cones)[row];
+  case PrimitiveKind::disk:
+    return column_of(desc.disks)[row];
+  case PrimitiveKind::polygon:
+    return column_of(desc.polygons)[row];
+  case PrimitiveKind::plane:
+    break;
+  }
+  return column_of(desc.planes)[row];
+}
+
+std::size_t bytes_of(const Columns3& columns) { return bytes_of(columns.x, columns.y, columns.z); }
+
 } // namespace
 
 Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
@@ -40,35 +67,44 @@ Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
   for (Light& light : desc_.lights)
     if (light.kind == LightKind::directional) tame_direction(light);
   has_transmission_ = std::any_of(desc_.materials.begin(), desc_.materials.end(), lets_light_through);
+  const std::size_t counts[primitive_kinds] = {desc_.triangles.size(), desc_.spheres.size(),
+                                               desc_.cones.size(),     desc_.disks.size(),
+                                               desc_.polygons.size(),  desc_.planes.size()};
+  for (std::size_t kind = 0; kind < primitive_kinds; ++kind)
+    first_[kind + 1] = first_[kind] + static_cast<std::uint32_t>(counts[kind]);
+  shapes_ = std::make_shared<const SceneShapes>(make_shapes(desc_));
   bounds_ = bounds_of(desc_);
 }
 
 std::uint32_t Scene::material_of(std::uint32_t primitive) const noexcept {
-  FASTRT_ASSERT_LT(primitive, primitive_count());
-  const std::uint32_t triangles = triangle_count();
-  return primitive < triangles ? desc_.triangles.material[primitive]
-                               : desc_.spheres.material[primitive - triangles];
+  return row_of(
+      *this, primitive, [](const auto& columns) -> const auto& { return columns.material; });
 }
 
 std::uint32_t Scene::object_of(std::uint32_t primitive) const noexcept {
-  FASTRT_ASSERT_LT(primitive, primitive_count());
-  const std::uint32_t triangles = triangle_count();
-  return primitive < triangles ? desc_.triangles.object[primitive]
-                               : desc_.spheres.object[primitive - triangles];
+  return row_of(
+      *this, primitive, [](const auto& columns) -> const auto& { return columns.object; });
 }
 
 std::size_t Scene::bytes() const noexcept {
   const auto& [v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object] = desc_.triangles;
   const SphereColumns& s = desc_.spheres;
-  const Columns3 &p = desc_.positions, &n = desc_.normals;
   std::size_t images = 0;
   for (const Texture& texture : desc_.textures)
     if (texture.image != nullptr)
       images += texture.image->bytes().size() + sizeof(float) * texture.image->floats().size();
-  const Columns3& c = desc_.colors;
-  return images + bytes_of(c.x, c.y, c.z) + bytes_of(p.x, p.y, p.z, n.x, n.y, n.z, desc_.uvs.x, desc_.uvs.y) +
+  const ConeColumns& c = desc_.cones;
+  const DiskColumns& d = desc_.disks;
+  const PolygonColumns& g = desc_.polygons;
+  const PlaneColumns& p = desc_.planes;
+  return images + bytes_of(desc_.colors) + bytes_of(desc_.positions) + bytes_of(desc_.normals) +
+         bytes_of(desc_.uvs.x, desc_.uvs.y) +
          bytes_of(v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object) +
-         bytes_of(s.x, s.y, s.z, s.radius, s.material, s.object);
+         bytes_of(s.x, s.y, s.z, s.radius, s.material, s.object) + bytes_of(c.base) + bytes_of(c.apex) +
+         bytes_of(c.base_radius, c.apex_radius, c.capped, c.material, c.object) + bytes_of(d.center) +
+         bytes_of(d.normal) + bytes_of(d.radius, d.material, d.object) +
+         bytes_of(g.vertex, g.vertex_end, g.contour_end, g.material, g.object) + bytes_of(p.point) +
+         bytes_of(p.normal) + bytes_of(p.material, p.object) + shapes_->bytes();
 }
 
 } // namespace fastrt

@@ -98,10 +98,15 @@ std::uint32_t SceneBuilder::add_mesh(std::span<const Vec3> positions, std::span<
   return object;
 }
 
-std::uint32_t SceneBuilder::add_sphere(const Vec3& center, float radius, std::uint32_t material,
-                                       std::string name) {
+std::uint32_t SceneBuilder::add_object(std::string name) {
   const std::uint32_t object = checked_id(desc_.object_names.size(), "objects");
   desc_.object_names.push_back(std::move(name));
+  return object;
+}
+
+std::uint32_t SceneBuilder::add_sphere(const Vec3& center, float radius, std::uint32_t material,
+                                       std::string name) {
+  const std::uint32_t object = add_object(std::move(name));
   SphereColumns& spheres = desc_.spheres;
   spheres.x.push_back(center.x);
   spheres.y.push_back(center.y);
@@ -109,6 +114,67 @@ std::uint32_t SceneBuilder::add_sphere(const Vec3& center, float radius, std::ui
   spheres.radius.push_back(radius);
   spheres.material.push_back(material);
   spheres.object.push_back(object);
+  return object;
+}
+
+std::uint32_t SceneBuilder::add_cone(const Vec3& base, float base_radius, const Vec3& apex, float apex_radius,
+                                     std::uint32_t material, bool capped, std::string name) {
+  const std::uint32_t object = add_object(std::move(name));
+  ConeColumns& cones = desc_.cones;
+  cones.base.push_back(base);
+  cones.base_radius.push_back(base_radius);
+  cones.apex.push_back(apex);
+  cones.apex_radius.push_back(apex_radius);
+  cones.capped.push_back(capped ? 1 : 0);
+  cones.material.push_back(material);
+  cones.object.push_back(object);
+  return object;
+}
+
+std::uint32_t SceneBuilder::add_cylinder(const Vec3& base, const Vec3& apex, float radius,
+                                         std::uint32_t material, bool capped, std::string name) {
+  return add_cone(base, radius, apex, radius, material, capped, std::move(name));
+}
+
+std::uint32_t SceneBuilder::add_disk(const Vec3& center, const Vec3& normal, float radius,
+                                     std::uint32_t material, std::string name) {
+  const std::uint32_t object = add_object(std::move(name));
+  DiskColumns& disks = desc_.disks;
+  disks.center.push_back(center);
+  disks.normal.push_back(normal);
+  disks.radius.push_back(radius);
+  disks.material.push_back(material);
+  disks.object.push_back(object);
+  return object;
+}
+
+std::uint32_t SceneBuilder::add_polygon(std::span<const std::vector<Vec3>> contours, std::uint32_t material,
+                                        std::string name) {
+  const std::uint32_t object = add_object(std::move(name));
+  PolygonColumns& polygons = desc_.polygons;
+  for (const std::vector<Vec3>& contour : contours) {
+    for (const Vec3& position : contour) {
+      polygons.vertex.push_back(checked_id(desc_.positions.size(), "vertices"));
+      desc_.positions.push_back(position);
+    }
+    polygons.vertex_end.push_back(checked_id(polygons.vertex.size(), "vertices"));
+  }
+  if (desc_.colors.size() != 0)
+    while (desc_.colors.size() < desc_.positions.size()) desc_.colors.push_back(Vec3(1.0F));
+  polygons.contour_end.push_back(checked_id(polygons.vertex_end.size(), "contours"));
+  polygons.material.push_back(material);
+  polygons.object.push_back(object);
+  return object;
+}
+
+std::uint32_t SceneBuilder::add_plane(const Vec3& point, const Vec3& normal, std::uint32_t material,
+                                      std::string name) {
+  const std::uint32_t object = add_object(std::move(name));
+  PlaneColumns& planes = desc_.planes;
+  planes.point.push_back(point);
+  planes.normal.push_back(normal);
+  planes.material.push_back(material);
+  planes.object.push_back(object);
   return object;
 }
 

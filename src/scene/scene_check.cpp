@@ -125,8 +125,12 @@ void check_spheres(const SceneDesc& desc) {
 
 void check_scene(const SceneDesc& desc) {
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-  if (desc.triangles.size() > most || desc.spheres.size() > most - desc.triangles.size())
-    throw LimitError("the scene has more than " + std::to_string(most) + " primitives");
+  std::size_t left = most;
+  for (const std::size_t count : {desc.triangles.size(), desc.spheres.size(), desc.cones.size(),
+                                  desc.disks.size(), desc.polygons.size(), desc.planes.size()}) {
+    if (count > left) throw LimitError("the scene has more than " + std::to_string(most) + " primitives");
+    left -= count;
+  }
   check_finite(desc.positions, "vertex");
   check_finite(desc.normals, "normal");
   if (desc.uvs.y.size() != desc.uvs.size())
@@ -139,6 +143,7 @@ void check_scene(const SceneDesc& desc) {
                      std::to_string(desc.positions.size()) + " vertices");
   check_triangles(desc);
   check_spheres(desc);
+  check_shapes(desc);
   check_textures(desc);
   check_materials(desc);
   check_lights(desc);

@@ -47,10 +47,7 @@ FASTRT_INLINE void record_hit(const TileJob& job, const PathBatch& rays, const T
   const std::int32_t id = scratch.hits.primitive[i];
   const auto primitive = static_cast<std::uint32_t>(id);
   if (to.primitive != nullptr) to.primitive[at] = id;
-  if (to.object != nullptr)
-    to.object[at] = static_cast<std::int32_t>(primitive < scene.triangle_count
-                                                  ? scene.triangle_object[primitive]
-                                                  : scene.sphere_object[primitive - scene.triangle_count]);
+  if (to.object != nullptr) to.object[at] = static_cast<std::int32_t>(object_index(scene, id));
   if (to.material != nullptr) to.material[at] = s.material[i];
   if (to.depth != nullptr) {
     const float length2 =

@@ -2,7 +2,7 @@
 // (u, v) of hits that are known.
 #pragma once
 
-#include "src/trace/surface.hpp"
+#include "src/trace/shape_weights.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -25,6 +25,14 @@ static void hit_weights(const ShadingView& scene, const RayBatch& rays, const Hi
     const PathM mask = from_bits<widest>(triangles);
     select(mask, weights.u, PathF(0.0F)).store_unaligned(u + i);
     select(mask, weights.v, PathF(0.0F)).store_unaligned(v + i);
+    for (int k = i; k < i + widest && k < rays.count; ++k) {
+      if (hits.primitive[k] < static_cast<std::int32_t>(scene.triangle_count)) continue;
+      const ShapeWeights found = shape_weights(
+          scene, hits.primitive[k], V3<float>{rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]},
+          V3<float>{rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]}, hits.t[k]);
+      u[k] = found.u;
+      v[k] = found.v;
+    }
   }
 }
 

@@ -112,9 +112,7 @@ FASTRT_INLINE void trace_opaque_shadows(const GeometryView& scene, const RayBatc
 }
 
 FASTRT_INLINE const MaterialRow& material_of(const ShadingView& scene, std::int32_t primitive) {
-  const auto index = static_cast<std::uint32_t>(primitive);
-  return scene.materials[index < scene.triangle_count ? scene.triangle_material[index]
-                                                      : scene.sphere_material[index - scene.triangle_count]];
+  return scene.materials[material_index(scene, primitive)];
 }
 
 // One surface on the way of shadow ray i: takes what it holds back. Returns whether the ray goes on behind

@@ -3,6 +3,7 @@
 
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/intersect.hpp"
+#include "src/trace/scene_view.hpp"
 
 #include <array>
 #include <utility>
@@ -71,22 +72,32 @@ struct Pending {
 } // namespace
 
 Column<PrimitiveBox> primitive_boxes(const Scene& scene) {
-  Column<PrimitiveBox> boxes(scene.primitive_count());
+  Column<PrimitiveBox> boxes(scene.first_of(PrimitiveKind::plane));
   for (std::uint32_t id = 0; id < scene.triangle_count(); ++id) {
     const auto [a, b, c] = reference::triangle_vertices(scene, id);
     Aabb bounds;
     bounds.extend(a);
     bounds.extend(b);
     bounds.extend(c);
-    boxes[id] = box_of(bounds, id, 0);
+    boxes[id] = box_of(bounds, id, triangle_group);
   }
   for (std::uint32_t i = 0; i < scene.sphere_count(); ++i) {
     const auto [center, radius] = reference::sphere_shape(scene, i);
     // Two ulps more than the radius, so that no rounding leaves the rim outside.
     const Vec3 reach{radius + 0x1p-22F * (radius + reference::largest_magnitude(center))};
     const std::uint32_t id = scene.triangle_count() + i;
-    boxes[id] = box_of({center - reach, center + reach}, id, 1);
+    boxes[id] = box_of({center - reach, center + reach}, id, sphere_group);
   }
+  std::uint32_t id = scene.first_of(PrimitiveKind::cone);
+  const auto add_boxes = [&](const auto& shapes) {
+    for (const auto& shape : shapes) {
+      boxes[id] = box_of(shape.box, id, shape_group);
+      ++id;
+    }
+  };
+  add_boxes(scene.shapes().cones);
+  add_boxes(scene.shapes().disks);
+  add_boxes(scene.shapes().polygons);
   return boxes;
 }
 
@@ -114,9 +125,8 @@ bool ScalarBvh::test_leaf(const BinaryNode& leaf, const Ray& ray, Hit& best) con
 }
 
 template <bool any_will_do>
-Hit ScalarBvh::traverse(const Ray& ray) const {
-  Hit best{ray.t_max, 0, 0, no_primitive};
-  if (tree_.nodes.empty()) return best;
+void ScalarBvh::traverse(const Ray& ray, Hit& best) const {
+  if (tree_.nodes.empty()) return;
   const SlabRay slabs(ray, largest_coordinate_);
   std::array<Pending, max_tree_depth + 2> stack;
   std::size_t pending = 0;
@@ -127,7 +137,7 @@ Hit ScalarBvh::traverse(const Ray& ray) const {
     while (!(next.entry > best.t)) {
       const BinaryNode& node = tree_.nodes[next.node];
       if (node.count != 0) {
-        if (test_leaf<any_will_do>(node, ray, best)) return best;
+        if (test_leaf<any_will_do>(node, ray, best)) return;
         break;
       }
       Pending farther{node.first, slabs.entry(tree_.nodes[node.first], best.t)};
@@ -137,10 +147,22 @@ Hit ScalarBvh::traverse(const Ray& ray) const {
       if (!(next.entry < infinity)) break;
     }
   }
+}
+
+// Planes have no box: every ray meets them all.
+template <bool any_will_do>
+Hit ScalarBvh::trace(const Ray& ray) const {
+  Hit best{ray.t_max, 0, 0, no_primitive};
+  traverse<any_will_do>(ray, best);
+  for (std::uint32_t id = scene_->first_of(PrimitiveKind::plane); id < scene_->primitive_count(); ++id) {
+    if (any_will_do && best.found()) break;
+    if (static_cast<std::int32_t>(id) == ray.excluded) continue;
+    reference::keep_closest(best, reference::intersect(ray, *scene_, id), id);
+  }
   return best;
 }
 
-Hit ScalarBvh::closest(const Ray& ray) const { return traverse<false>(ray); }
-bool ScalarBvh::any(const Ray& ray) const { return traverse<true>(ray).found(); }
+Hit ScalarBvh::closest(const Ray& ray) const { return trace<false>(ray); }
+bool ScalarBvh::any(const Ray& ray) const { return trace<true>(ray).found(); }
 
 } // namespace fastrt

@@ -22,7 +22,9 @@ public:
 
 private:
   template <bool any_will_do>
-  reference::Hit traverse(const reference::Ray& ray) const;
+  reference::Hit trace(const reference::Ray& ray) const;
+  template <bool any_will_do>
+  void traverse(const reference::Ray& ray, reference::Hit& best) const;
   template <bool any_will_do>
   bool test_leaf(const BinaryNode& leaf, const reference::Ray& ray, reference::Hit& best) const;
 
@@ -31,7 +33,8 @@ private:
   float largest_coordinate_ = 0; // of the scene's bounds, as a magnitude
 };
 
-// The box of every primitive as the tree's builder wants them: group 0 triangles, group 1 spheres.
+// The box of every primitive that has one, planes not, as the tree's builder wants them, with the groups of
+// scene_view.hpp.
 Column<PrimitiveBox> primitive_boxes(const Scene& scene);
 
 } // namespace fastrt

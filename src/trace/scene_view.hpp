@@ -22,15 +22,60 @@ struct alignas(32) SphereBlock {
   std::int32_t primitive[block_size];
 };
 
+// Four primitives of the other kinds: their boxes and ids; what a ray needs to meet one is in ShapeView.
+struct alignas(32) ShapeBlock {
+  float low_x[block_size], low_y[block_size], low_z[block_size];
+  float high_x[block_size], high_y[block_size], high_z[block_size];
+  std::int32_t primitive[block_size];
+};
+
+// The names are those of src/scene/shapes.hpp; low and high are the box.
+struct ConeRow {
+  float center[3], axis[3], side[3];
+  float half_height, radius, slope;
+  float low[3], high[3];
+  std::uint32_t capped;
+};
+struct DiskRow {
+  float center[3], normal[3], side[3];
+  float radius;
+  float low[3], high[3];
+};
+struct PolygonRow {
+  float point[3], normal[3], side[3];
+  float low[3], high[3];
+  std::uint32_t axis_x, axis_y, first_edge, edge_count;
+};
+struct EdgeRow {
+  float low, high, x, slope;
+};
+struct PlaneRow {
+  float point[3], normal[3], side[3];
+};
+
+// The primitives that are neither triangles nor spheres, by kind. Their ids follow one another.
+struct ShapeView {
+  const ConeRow* cones;
+  const DiskRow* disks;
+  const PolygonRow* polygons;
+  const EdgeRow* edges;
+  const PlaneRow* planes; // in no tree: every ray is held against every plane
+  std::int32_t first_cone, first_disk, first_polygon, first_plane; // ids
+  std::uint32_t plane_count;
+};
+
 // Group numbers of the tree's leaves.
 inline constexpr std::uint32_t triangle_group = 0;
 inline constexpr std::uint32_t sphere_group = 1;
+inline constexpr std::uint32_t shape_group = 2; // cones, disks and polygons, mixed
 
 // What a ray must know to meet the scene's primitives.
 struct GeometryView {
   const WideNode* nodes;
   const TriangleBlock* triangles;
   const SphereBlock* spheres;
+  const ShapeBlock* shape_blocks;
+  ShapeView shapes;
   std::uint32_t root;       // a child reference; no_child for an empty scene
   float largest_coordinate; // of any box in the tree
 };
@@ -68,6 +113,9 @@ struct ShadingView {
   const float *sphere_x, *sphere_y, *sphere_z, *sphere_radius;
   const std::uint32_t *triangle_material, *sphere_material;
   const std::uint32_t *triangle_object, *sphere_object;
+  const std::uint32_t *shape_material,
+      *shape_object; // of cones, disks, polygons and planes, one after the other
+  ShapeView shapes;
   const MaterialRow* materials;
   const LightRow* lights;
   std::uint32_t triangle_count, sphere_count, light_count;

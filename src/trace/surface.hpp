@@ -4,20 +4,10 @@
 #pragma once
 
 #include "src/kernels/triangle.hpp"
+#include "src/trace/shape_surface.hpp"
 #include "src/trace/tile_job.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-using PathF = Floats<widest>;
-using PathI = Ints<widest>;
-using PathM = Mask<widest>;
-using PathV = V3<PathF>;
-
-// One surface per lane.
-struct Surface {
-  PathV point, geometric, shading;
-  PathF magnitude;
-};
 
 // The corners of a triangle per lane, gathered from the scene's columns.
 struct Corners {
@@ -110,11 +100,6 @@ FASTRT_INLINE Surface sphere_surface(const ShadingView& scene, const std::int32_
   return s;
 }
 
-FASTRT_INLINE Surface select(const PathM& mask, const Surface& yes, const Surface& no) {
-  return {select(mask, yes.point, no.point), select(mask, yes.geometric, no.geometric),
-          select(mask, yes.shading, no.shading), simd::select(mask, yes.magnitude, no.magnitude)};
-}
-
 // Both normals to the viewer's side, whichever way the surface is wound.
 FASTRT_INLINE void face_viewer(Surface& s, const PathV& dir) {
   const PathM away = dot(s.geometric, dir) > PathF(0.0F);
@@ -132,24 +117,38 @@ FASTRT_INLINE void store_surface(const Surface& s, const PathV& dir, int i, Surf
   s.magnitude.store_aligned(batch.magnitude + i);
 }
 
+FASTRT_INLINE std::uint32_t material_index(const ShadingView& scene, std::int32_t primitive) {
+  const auto index = static_cast<std::uint32_t>(primitive);
+  if (index < scene.triangle_count) return scene.triangle_material[index];
+  if (primitive < scene.shapes.first_cone) return scene.sphere_material[index - scene.triangle_count];
+  return scene.shape_material[primitive - scene.shapes.first_cone];
+}
+
+FASTRT_INLINE std::uint32_t object_index(const ShadingView& scene, std::int32_t primitive) {
+  const auto index = static_cast<std::uint32_t>(primitive);
+  if (index < scene.triangle_count) return scene.triangle_object[index];
+  if (primitive < scene.shapes.first_cone) return scene.sphere_object[index - scene.triangle_count];
+  return scene.shape_object[primitive - scene.shapes.first_cone];
+}
+
 // The surfaces that rays i .. i + widest - 1 hit; rows of rays that missed hold no meaning.
 FASTRT_INLINE void find_surfaces(const ShadingView& scene, const PathBatch& rays, const HitBatch& hits, int i,
                                  SurfaceBatch& batch) {
   const std::int32_t* primitives = hits.primitive + i;
-  std::uint32_t triangles = 0, spheres = 0;
+  std::uint32_t triangles = 0, spheres = 0, shapes = 0;
   for (int lane = 0; lane < widest && i + lane < rays.count; ++lane) {
     const std::int32_t id = primitives[lane];
     batch.planar[i + lane] = -1;
     if (id < 0) continue;
-    const auto index = static_cast<std::uint32_t>(id);
-    if (index < scene.triangle_count) {
+    batch.material[i + lane] = static_cast<std::int32_t>(material_index(scene, id));
+    if (static_cast<std::uint32_t>(id) < scene.triangle_count) {
       triangles |= 1U << lane;
       batch.planar[i + lane] = id;
-      batch.material[i + lane] = static_cast<std::int32_t>(scene.triangle_material[index]);
-    } else {
+    } else if (id < scene.shapes.first_cone) {
       spheres |= 1U << lane;
-      batch.material[i + lane] =
-          static_cast<std::int32_t>(scene.sphere_material[index - scene.triangle_count]);
+    } else {
+      shapes |= 1U << lane;
+      if (id >= scene.shapes.first_disk) batch.planar[i + lane] = id;
     }
   }
   const PathV origin = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
@@ -160,6 +159,11 @@ FASTRT_INLINE void find_surfaces(const ShadingView& scene, const PathBatch& rays
     const Surface on_sphere =
         sphere_surface(scene, primitives, spheres, origin, dir, PathF::load_aligned(hits.t + i));
     s = triangles != 0 ? select(from_bits<widest>(spheres), on_sphere, s) : on_sphere;
+  }
+  if (shapes != 0) {
+    const Surface on_shape =
+        shape_surface(scene.shapes, primitives, shapes, origin, dir, PathF::load_aligned(hits.t + i));
+    s = (triangles | spheres) != 0 ? select(from_bits<widest>(shapes), on_shape, s) : on_shape;
   }
   face_viewer(s, dir);
   store_surface(s, dir, i, batch);

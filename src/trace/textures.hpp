@@ -3,7 +3,7 @@
 // that a bump map turns (docs/numerics.md, "Textures").
 #pragma once
 
-#include "src/trace/surface.hpp"
+#include "src/trace/shape_weights.hpp"
 #include "src/trace/texture_lookup.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -34,7 +34,12 @@ static HitSite find_site(const ShadingView& scene, std::int32_t primitive, const
   site.at.point[2] = p.z;
   const auto id = static_cast<std::uint32_t>(primitive);
   site.is_triangle = id < scene.triangle_count;
-  if (!site.is_triangle) return site;
+  if (!site.is_triangle) {
+    const ShapeWeights weights = shape_weights(scene, primitive, origin, dir, t);
+    site.at.u = weights.u;
+    site.at.v = weights.v;
+    return site;
+  }
   const std::uint32_t corner[3] = {scene.v0[id], scene.v1[id], scene.v2[id]};
   Row3 vertex[3];
   V3<Rgba> relative[3];

@@ -33,6 +33,8 @@ void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree) {
   view.nodes = parts.nodes.data();
   view.triangles = parts.triangle_blocks.data();
   view.spheres = parts.sphere_blocks.data();
+  view.shape_blocks = parts.shape_blocks.data();
+  view.shapes = shape_view(parts.scene, parts.shapes);
   view.root = tree.root;
   view.largest_coordinate = largest_magnitude(tree.bounds);
 }
@@ -79,6 +81,9 @@ void fill_shading_view(Tracer::Parts& parts) {
   ShadingView& view = parts.view.shading;
   const SceneDesc& desc = parts.scene.desc();
   fill_columns(parts.scene, view);
+  view.shape_material = parts.shapes.materials.data();
+  view.shape_object = parts.shapes.objects.data();
+  view.shapes = shape_view(parts.scene, parts.shapes);
   view.materials = parts.materials.data();
   view.lights = parts.lights.data();
   view.light_count = static_cast<std::uint32_t>(parts.lights.size());
@@ -98,10 +103,11 @@ void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
   stats.sah_cost = sah_cost(tree);
   stats.node_count = tree.nodes.size();
   stats.leaf_count = leaf_count(tree);
-  stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size();
+  stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size() + parts.shape_blocks.size();
   stats.depth = tree_depth(tree);
   stats.bytes = tree.nodes.size() * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
-                parts.sphere_blocks.size() * sizeof(SphereBlock);
+                parts.sphere_blocks.size() * sizeof(SphereBlock) +
+                parts.shape_blocks.size() * sizeof(ShapeBlock) + parts.shapes.bytes();
   const std::uint32_t primitives = parts.scene.primitive_count();
   stats.bytes_per_primitive = primitives == 0 ? 0.0 : static_cast<double>(stats.bytes) / primitives;
 }
@@ -118,6 +124,8 @@ WideTree build(Tracer::Parts& parts, int threads) {
   }
   parts.triangle_blocks = triangle_blocks(parts.scene, tree.slots[triangle_group], threads);
   parts.sphere_blocks = sphere_blocks(parts.scene, tree.slots[sphere_group]);
+  parts.shape_blocks = shape_blocks(parts.scene, tree.slots[shape_group]);
+  parts.shapes = shape_rows(parts.scene);
   return tree;
 }
 

@@ -7,6 +7,7 @@
 #include "src/trace/scalar_bvh.hpp"
 #include "src/trace/scene_view.hpp"
 
+#include <fastrt/column.hpp>
 #include <fastrt/tracer.hpp>
 
 #include <memory>
@@ -21,12 +22,25 @@ struct TextureRows {
   std::vector<SurfaceTextures> materials; // as Scene::materials()
 };
 
+// What the kernels read of cones, disks, polygons and planes.
+struct ShapeRows {
+  Column<ConeRow> cones;
+  Column<DiskRow> disks;
+  Column<PolygonRow> polygons;
+  Column<EdgeRow> edges;
+  Column<PlaneRow> planes;
+  Column<std::uint32_t> materials, objects; // of all of them, by id
+  std::size_t bytes() const noexcept;
+};
+
 struct Tracer::Parts {
   Scene scene;
   Isa isa = Isa::scalar;
   Column<WideNode> nodes;
   Column<TriangleBlock> triangle_blocks;
   Column<SphereBlock> sphere_blocks;
+  Column<ShapeBlock> shape_blocks;
+  ShapeRows shapes;
   std::vector<MaterialRow> materials;
   std::vector<LightRow> lights;
   TextureRows textures;
@@ -43,9 +57,13 @@ std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& te
 TextureRows texture_rows(const Scene& scene);
 std::vector<LightRow> light_rows(const Scene& scene);
 
+ShapeRows shape_rows(const Scene& scene);
+ShapeView shape_view(const Scene& scene, const ShapeRows& rows);
+
 // The leaf blocks in the tree's order. slots: primitive ids, block_size a block, -1 where a block is not
 // full.
 Column<TriangleBlock> triangle_blocks(const Scene& scene, const Column<std::int32_t>& slots, int threads);
 Column<SphereBlock> sphere_blocks(const Scene& scene, const Column<std::int32_t>& slots);
+Column<ShapeBlock> shape_blocks(const Scene& scene, const Column<std::int32_t>& slots);
 
 } // namespace fastrt

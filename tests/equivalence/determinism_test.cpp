@@ -37,8 +37,13 @@ TEST(Determinism, ATracerIsTheSameForAnyNumberOfThreads) {
 // Everything that is a length times `factor`, a power of two; absorption is per length.
 Shot in_other_units(const Shot& shot, float factor) {
   SceneDesc desc = shot.scene.desc();
-  for (Column<float>* column : {&desc.positions.x, &desc.positions.y, &desc.positions.z, &desc.spheres.x,
-                                &desc.spheres.y, &desc.spheres.z, &desc.spheres.radius})
+  ConeColumns& cones = desc.cones;
+  for (Columns3* columns :
+       {&desc.positions, &cones.base, &cones.apex, &desc.disks.center, &desc.planes.point})
+    for (Column<float>* column : {&columns->x, &columns->y, &columns->z})
+      for (float& value : *column) value *= factor;
+  for (Column<float>* column : {&desc.spheres.x, &desc.spheres.y, &desc.spheres.z, &desc.spheres.radius,
+                                &cones.base_radius, &cones.apex_radius, &desc.disks.radius})
     for (float& value : *column) value *= factor;
   for (Light& light : desc.lights) light.position *= factor;
   for (Material& material : desc.materials) material.absorption /= factor;
@@ -54,12 +59,26 @@ Shot in_other_units(const Shot& shot, float factor) {
   return scaled;
 }
 
+// (u, v) of polygons and planes are lengths.
+void scale_flat_coordinates(const Scene& scene, float factor, Frame& frame) {
+  for (AovPlane& plane : frame.aovs) {
+    if (plane.aov != Aov::uv) continue;
+    for (std::size_t pixel = 0; pixel < frame.primitive.size(); ++pixel) {
+      const std::int32_t id = frame.primitive[pixel];
+      if (id < 0 || scene.kind(static_cast<std::uint32_t>(id)) < PrimitiveKind::polygon) continue;
+      plane.values[2 * pixel] *= factor;
+      plane.values[2 * pixel + 1] *= factor;
+    }
+  }
+}
+
 void expect_same_in_other_units(const Shot& shot) {
   const Frame in_units_of_1 =
       render(make_tracer(shot.scene, available_isas().front()), shot.camera, shot.settings);
   for (const float factor : {1.0F / 1024, 8192.0F}) {
     const Shot scaled = in_other_units(shot, factor);
     Frame expected = in_units_of_1;
+    scale_flat_coordinates(shot.scene, factor, expected);
     for (AovPlane& plane : expected.aovs)
       if (plane.aov == Aov::depth || plane.aov == Aov::position)
         for (float& length : plane.values) length *= factor;

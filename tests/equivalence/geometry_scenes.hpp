@@ -4,6 +4,7 @@
 #pragma once
 
 #include "tests/equivalence/pairs.hpp"
+#include "tests/unit/shape_scenes.hpp"
 
 #include <fastrt/scene.hpp>
 
@@ -112,6 +113,42 @@ inline Scene one_sphere() {
   return builder.build();
 }
 
+// Each kind by itself, many of them, and all kinds together.
+inline Scene shapes_scene(int count, float scale, const Vec3& offset, int planes, bool others,
+                          Random& random) {
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add_material({});
+  if (others) {
+    add(builder, mixed_soup(60, -4, 0, random), material);
+    add_spheres(builder, material, 20, random);
+  }
+  for (int i = 0; i < count; ++i)
+    add_any_shape(builder, material, offset + scale * random.in_cube(),
+                  scale * any_size(random, count == 1 ? -1.0F : -4.0F, 0), random);
+  for (int i = 0; i < planes; ++i) add_any_plane(builder, material, random);
+  return builder.build();
+}
+
+// The numbers in which cones are awkward: pointed, flat, needle-like, along an axis.
+inline Scene odd_cones_scene(Random& random) {
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add_material({});
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 center = random.in_cube();
+    const Vec3 axis = any_size(random, -8, 2) * (i % 3 == 0 ? axis_direction(random) : random.direction());
+    const float r0 = any_size(random, -8, 1);
+    const float r1 = i % 4 == 0 ? 0.0F : i % 4 == 1 ? r0 : any_size(random, -8, 1);
+    builder.add_cone(center - axis, r0, center + axis, r1, material, i % 2 == 0);
+  }
+  return builder.build();
+}
+
+inline Scene one_cone() {
+  SceneBuilder builder;
+  builder.add_cone({0.1F, -0.7F, 0.2F}, 0.8F, {0.3F, 0.9F, -0.1F}, 0.3F, builder.add_material({}));
+  return builder.build();
+}
+
 inline std::vector<NamedScene> geometry_scenes() {
   Random random(77);
   std::vector<NamedScene> scenes;
@@ -136,6 +173,13 @@ inline std::vector<NamedScene> geometry_scenes() {
   add_mesh("room", room(random));
   scenes.push_back({"spheres", spheres_scene(random)});
   scenes.push_back({"mixed", mixed_scene(random)});
+  scenes.push_back({"one_cone", one_cone()});
+  scenes.push_back({"one_plane", shapes_scene(0, 1, {}, 1, false, random)});
+  scenes.push_back({"shapes", shapes_scene(150, 1, {}, 0, false, random)});
+  scenes.push_back({"shapes_far_away", shapes_scene(60, 1, {1e3F, -2e3F, 5e2F}, 0, false, random)});
+  scenes.push_back({"shapes_large", shapes_scene(60, 1e4F, {3e3F, 0, 0}, 0, false, random)});
+  scenes.push_back({"odd_cones", odd_cones_scene(random)});
+  scenes.push_back({"every_kind", shapes_scene(60, 1, {}, 3, true, random)});
   return scenes;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tests/equivalence/frames.hpp"
-#include "tests/unit/reference_shapes.hpp"
+#include "tests/unit/shape_scenes.hpp"
 
 #include <vector>
 
@@ -77,6 +77,12 @@ inline Scene any_scene(Random& random) {
     builder.add_sphere(center, radius, random.below(materials));
     // One within the other, of whatever it may be.
     if (random.below(3) == 0) builder.add_sphere(center, 0.7F * radius, random.below(materials));
+  }
+  if (random.below(2) == 0) {
+    for (std::uint32_t i = random.below(8); i != 0; --i)
+      add_any_shape(builder, random.below(materials), 1.5F * random.in_cube(), random.uniform(0.2F, 1.2F),
+                    random);
+    if (random.below(3) == 0) add_any_plane(builder, random.below(materials), random);
   }
   for (std::uint32_t i = random.below(4); i != 0; --i) builder.add_light(any_light(random));
   builder.set_ambient(any_colour(random, 0.5F));

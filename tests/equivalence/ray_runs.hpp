@@ -71,7 +71,8 @@ inline RayRun shadow_fan(const Scene& scene, const Vec3& light, std::uint32_t sp
     ray.origin = light;
     ray.direction = target - light;
     ray.t_max = random.below(4) == 0 ? infinity : 1.0F;
-    if (primitive < scene.triangle_count()) ray.excluded = static_cast<std::int32_t>(primitive);
+    if (primitive < scene.triangle_count() || primitive >= scene.first_of(PrimitiveKind::disk))
+      ray.excluded = static_cast<std::int32_t>(primitive);
   }
   return run;
 }

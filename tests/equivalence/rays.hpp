@@ -21,8 +21,56 @@ inline Extent extent_of(const Scene& scene) {
   return {scene.bounds().center(), 0.5F * glm::length(scene.bounds().extent())};
 }
 
-// A corner, a point of an edge or any point of a triangle; a point of a sphere's surface or its middle.
+// Square to `axis`, of length 1.
+inline Vec3 across(const Vec3& axis, Random& random) {
+  return glm::normalize(glm::cross(axis, random.direction()));
+}
+
+// A point of the mantle, a rim, an end's disc or the axis.
+inline Vec3 target_on_cone(const ConeShape& cone, Random& random) {
+  float height = random.uniform(-1, 1) * cone.half_height;
+  if (random.below(3) == 0) height = random.below(2) == 0 ? cone.half_height : -cone.half_height;
+  float distance = cone.radius + cone.slope * height;
+  if (random.below(4) == 0) distance *= random.uniform();
+  if (random.below(8) == 0) distance = 0;
+  return cone.center + height * cone.axis + distance * across(cone.axis, random);
+}
+
+// A vertex, or a point between two or three of them, inside or not.
+inline Vec3 target_on_polygon(const Scene& scene, std::uint32_t row, Random& random) {
+  const PolygonColumns& polygons = scene.desc().polygons;
+  const std::size_t first = contour_begin(polygons, contours_of(polygons, row).first);
+  const std::size_t end = polygons.vertex_end[contours_of(polygons, row).end - 1];
+  const auto vertex = [&] {
+    const auto i = first + random.below(static_cast<std::uint32_t>(end - first));
+    return scene.positions()[polygons.vertex[i]];
+  };
+  const Vec3 a = vertex();
+  const std::uint32_t choice = random.below(3);
+  if (choice == 0) return a;
+  const Vec3 b = vertex();
+  const Vec3 between = a + random.uniform() * (b - a);
+  return choice == 1 ? between : between + random.uniform() * (vertex() - between);
+}
+
+inline Vec3 target_on_shape(const Scene& scene, std::uint32_t primitive, Random& random) {
+  const PrimitiveKind kind = scene.kind(primitive);
+  const std::uint32_t row = primitive - scene.first_of(kind);
+  if (kind == PrimitiveKind::cone) return target_on_cone(scene.shapes().cones[row], random);
+  if (kind == PrimitiveKind::polygon) return target_on_polygon(scene, row, random);
+  if (kind == PrimitiveKind::disk) {
+    const DiskShape& disk = scene.shapes().disks[row];
+    const float share = random.below(2) == 0 ? 1.0F : random.uniform();
+    return disk.center + share * disk.radius * across(disk.normal, random);
+  }
+  const PlaneShape& plane = scene.shapes().planes[row];
+  return plane.point + any_size(random, -3, 5) * across(plane.normal, random);
+}
+
+// A corner, a point of an edge or any point of a triangle; a point of a sphere's surface or its middle; and
+// the like of the other kinds.
 inline Vec3 target_on(const Scene& scene, std::uint32_t primitive, Random& random) {
+  if (scene.kind(primitive) > PrimitiveKind::sphere) return target_on_shape(scene, primitive, random);
   if (scene.kind(primitive) == PrimitiveKind::sphere) {
     const auto [center, radius] = reference::sphere_shape(scene, primitive - scene.triangle_count());
     return random.below(8) == 0 ? center : center + radius * random.direction();

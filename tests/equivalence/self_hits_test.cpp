@@ -11,13 +11,15 @@
 namespace fastrt::test {
 namespace {
 
+enum class BodyKind { mesh, sphere, cylinder, cone };
 struct Body {
   float scale;
   float offset;
-  bool is_sphere;
+  BodyKind kind;
 };
 void PrintTo(const Body& body, std::ostream* out) {
-  *out << (body.is_sphere ? "sphere " : "mesh ") << body.scale << " at " << body.offset;
+  constexpr const char* names[] = {"mesh ", "sphere ", "cylinder ", "cone "};
+  *out << names[static_cast<int>(body.kind)] << body.scale << " at " << body.offset;
 }
 
 class SelfHits : public testing::TestWithParam<Body> {
@@ -28,9 +30,17 @@ protected:
 
   static Scene make_scene() {
     const Body& body = GetParam();
-    if (!body.is_sphere) return scene_of(placed(icosphere(2), body.scale, Vec3(body.offset)));
+    if (body.kind == BodyKind::mesh) return scene_of(placed(icosphere(2), body.scale, Vec3(body.offset)));
     SceneBuilder builder;
-    builder.add_sphere(Vec3(body.offset), body.scale, builder.add_material({}));
+    const std::uint32_t material = builder.add_material({});
+    const Vec3 center(body.offset);
+    const Vec3 half = body.scale * Vec3(0.2F, 0.6F, -0.3F);
+    if (body.kind == BodyKind::sphere)
+      builder.add_sphere(center, body.scale, material);
+    else if (body.kind == BodyKind::cylinder)
+      builder.add_cylinder(center - half, center + half, 0.6F * body.scale, material);
+    else
+      builder.add_cone(center - half, 0.8F * body.scale, center + half, 0.1F * body.scale, material);
     return builder.build();
   }
 
@@ -110,10 +120,10 @@ TEST_P(SelfHits, AreThereNone) {
 
 std::vector<Body> bodies() {
   std::vector<Body> bodies;
-  for (const bool is_sphere : {false, true})
+  for (const BodyKind kind : {BodyKind::mesh, BodyKind::sphere, BodyKind::cylinder, BodyKind::cone})
     for (const float scale : {1e-3F, 1e-2F, 1.0F, 1e2F, 1e4F})
       for (const float offset : {0.0F, 1e2F})
-        if (scale * 1e4F >= offset) bodies.push_back({scale, offset, is_sphere});
+        if (scale * 1e4F >= offset) bodies.push_back({scale, offset, kind});
   return bodies;
 }
 INSTANTIATE_TEST_SUITE_P(Bodies, SelfHits, testing::ValuesIn(bodies()));

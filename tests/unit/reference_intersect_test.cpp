@@ -131,8 +131,8 @@ TEST(ReferenceSphere, IsHitAtItsNearSideFromOutside) {
   const Intersection found = intersect_sphere(ray_of({0, 0, 5}, {0, 0, -2}), {{0, 0, 0}, 1});
   ASSERT_TRUE(found.hit);
   EXPECT_EQ(found.t, 2.0F);
-  EXPECT_EQ(found.u, 0.0F);
-  EXPECT_EQ(found.v, 0.0F);
+  EXPECT_EQ(found.u, 0.75F);
+  EXPECT_EQ(found.v, 0.5F);
 }
 
 TEST(ReferenceSphere, IsHitAtItsFarSideFromInside) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pow and exp that both paths share, against the C library's in double.
-#include "src/simd/shared_math.hpp"
+// The functions that both paths share, against the C library's in double.
+#include "src/simd/shared_turn.hpp"
 #include "tests/unit/reference_shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -64,6 +64,23 @@ TEST(SharedExp, EndsWellAtBothEnds) {
   EXPECT_EQ(exp_of(-1e30F), 0.0F);
   EXPECT_GT(exp_of(1e30F), 1e38F);
   EXPECT_LT(exp_of(1e30F), infinity);
+}
+
+TEST(SharedTurn, IsAsAccurateAsItSays) {
+  Random random(3);
+  const auto turn_of = [](float y, float x) { return baseline::shared_turn<ScalarOps>(y, x); };
+  for (int i = 0; i < 500000; ++i) {
+    const float x = random.uniform(-1, 1) * std::exp(random.uniform(-9, 9));
+    const float y = random.uniform(-1, 1);
+    ASSERT_NEAR(turn_of(y, x), std::atan2(static_cast<double>(y), static_cast<double>(x)) / 6.283185307179586,
+                2e-7)
+        << y << ", " << x;
+  }
+  EXPECT_EQ(turn_of(0, 0), 0.0F);
+  EXPECT_EQ(turn_of(0, 3), 0.0F);
+  EXPECT_EQ(turn_of(2, 0), 0.25F);
+  EXPECT_EQ(turn_of(0, -1), 0.5F);
+  EXPECT_EQ(turn_of(-2, 0), -0.25F);
 }
 
 } // namespace

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/scene/shapes.hpp"
+#include "src/trace/tracer_parts.hpp"
+
+#include <limits>
+
+namespace fastrt {
+namespace {
+
+void copy(const Vec3& from, float (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
+}
+
+template <class Row>
+void copy_box(const Aabb& box, Row& row) {
+  copy(box.lower, row.low);
+  copy(box.upper, row.high);
+}
+
+ConeRow row_of(const ConeShape& cone) {
+  ConeRow row{};
+  copy(cone.center, row.center);
+  copy(cone.axis, row.axis);
+  copy(cone.side, row.side);
+  row.half_height = cone.half_height;
+  row.radius = cone.radius;
+  row.slope = cone.slope;
+  row.capped = cone.capped ? 1 : 0;
+  copy_box(cone.box, row);
+  return row;
+}
+
+DiskRow row_of(const DiskShape& disk) {
+  DiskRow row{};
+  copy(disk.center, row.center);
+  copy(disk.normal, row.normal);
+  copy(disk.side, row.side);
+  row.radius = disk.radius;
+  copy_box(disk.box, row);
+  return row;
+}
+
+PolygonRow row_of(const PolygonShape& polygon) {
+  PolygonRow row{};
+  copy(polygon.point, row.point);
+  copy(polygon.normal, row.normal);
+  copy(polygon.side, row.side);
+  copy_box(polygon.box, row);
+  row.axis_x = polygon.axis_x;
+  row.axis_y = polygon.axis_y;
+  row.first_edge = polygon.first_edge;
+  row.edge_count = polygon.edge_count;
+  return row;
+}
+
+EdgeRow row_of(const PolygonEdge& edge) { return {edge.low, edge.high, edge.x, edge.slope}; }
+
+PlaneRow row_of(const PlaneShape& plane) {
+  PlaneRow row{};
+  copy(plane.point, row.point);
+  copy(plane.normal, row.normal);
+  copy(plane.side, row.side);
+  return row;
+}
+
+template <class Shape, class Row>
+void fill(const std::vector<Shape>& shapes, Column<Row>& rows) {
+  rows.resize(shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) rows[i] = row_of(shapes[i]);
+}
+
+const Aabb& box_of(const Scene& scene, std::uint32_t primitive) {
+  const PrimitiveKind kind = scene.kind(primitive);
+  const std::uint32_t row = primitive - scene.first_of(kind);
+  if (kind == PrimitiveKind::cone) return scene.shapes().cones[row].box;
+  if (kind == PrimitiveKind::disk) return scene.shapes().disks[row].box;
+  return scene.shapes().polygons[row].box;
+}
+
+} // namespace
+
+std::size_t ShapeRows::bytes() const noexcept {
+  return cones.bytes() + disks.bytes() + polygons.bytes() + edges.bytes() + planes.bytes() +
+         materials.bytes() + objects.bytes();
+}
+
+ShapeRows shape_rows(const Scene& scene) {
+  ShapeRows rows;
+  fill(scene.shapes().cones, rows.cones);
+  fill(scene.shapes().disks, rows.disks);
+  fill(scene.shapes().polygons, rows.polygons);
+  fill(scene.shapes().edges, rows.edges);
+  fill(scene.shapes().planes, rows.planes);
+  const SceneDesc& desc = scene.desc();
+  const auto append = [&](const auto& columns) {
+    rows.materials.append(columns.material.data(), columns.size());
+    rows.objects.append(columns.object.data(), columns.size());
+  };
+  append(desc.cones);
+  append(desc.disks);
+  append(desc.polygons);
+  append(desc.planes);
+  return rows;
+}
+
+ShapeView shape_view(const Scene& scene, const ShapeRows& rows) {
+  ShapeView view{};
+  view.cones = rows.cones.data();
+  view.disks = rows.disks.data();
+  view.polygons = rows.polygons.data();
+  view.edges = rows.edges.data();
+  view.planes = rows.planes.data();
+  view.first_cone = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::cone));
+  view.first_disk = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::disk));
+  view.first_polygon = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::polygon));
+  view.first_plane = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::plane));
+  view.plane_count = scene.count_of(PrimitiveKind::plane);
+  return view;
+}
+
+Column<ShapeBlock> shape_blocks(const Scene& scene, const Column<std::int32_t>& slots) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  Column<ShapeBlock> blocks(slots.size() / block_size);
+  for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+    ShapeBlock& block = blocks[slot / block_size];
+    const std::size_t i = slot % block_size;
+    block.primitive[i] = slots[slot];
+    Aabb box{Vec3(infinite), Vec3(-infinite)}; // a row that is not used is met by nothing
+    if (slots[slot] >= 0) box = box_of(scene, static_cast<std::uint32_t>(slots[slot]));
+    block.low_x[i] = box.lower.x;
+    block.low_y[i] = box.lower.y;
+    block.low_z[i] = box.lower.z;
+    block.high_x[i] = box.upper.x;
+    block.high_y[i] = box.upper.y;
+    block.high_z[i] = box.upper.z;
+  }
+  return blocks;
+}
+
+} // namespace fastrt

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// A surface per lane: what the surfaces of all kinds of primitives have in common.
+#pragma once
+
+#include "src/kernels/vec3.hpp"
+#include "src/trace/scene_view.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+using PathF = Floats<widest>;
+using PathI = Ints<widest>;
+using PathM = Mask<widest>;
+using PathV = V3<PathF>;
+
+// One surface per lane.
+struct Surface {
+  PathV point, geometric, shading;
+  PathF magnitude;
+};
+
+FASTRT_INLINE Surface select(const PathM& mask, const Surface& yes, const Surface& no) {
+  return {select(mask, yes.point, no.point), select(mask, yes.geometric, no.geometric),
+          select(mask, yes.shading, no.shading), simd::select(mask, yes.magnitude, no.magnitude)};
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
