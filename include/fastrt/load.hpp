@@ -21,7 +21,11 @@ struct LoadOptions {
 // can be tolerated goes to `diagnostics`.
 SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
-// Reads by the name's extension (.obj). Throws UsageError for one that is not known.
+// Reads a file of the Neutral File Format: primitives, materials, lights, background, and the camera and size
+// of the picture (SceneDesc::camera, width, height). Errors and warnings as load_obj's.
+SceneDesc load_nff(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
+
+// Reads by the name's extension (.obj, .nff). Throws UsageError for one that is not known.
 SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // The box around all primitives of a scene that is still being made; empty if it has none.

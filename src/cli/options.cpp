@@ -105,11 +105,12 @@ void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::s
   app.add_flag("--signature{/}", signature, "A picture of the objects, each in a colour of its own")
       ->option_text("[=FILE]")
       ->group("Image");
-  add.value("-r,--resolution", "WxH", "Size in pixels [1024x768]",
+  add.value("-r,--resolution", "WxH", "Size in pixels [the scene's, or 1024x768]",
             [&](const std::string& name, const std::string& text) {
               const Resolution size = parse_resolution(name, text);
               options.width = size.width;
               options.height = size.height;
+              options.resolution_given = true;
             });
   add.value("--crop", "X0,Y0,X1,Y1", "Columns X0 to X1 - 1 and rows Y0 to Y1 - 1 of the picture alone",
             [&](const std::string& name, const std::string& text) { options.crop = parse_crop(name, text); });
@@ -158,7 +159,7 @@ void add_sampling_options(OptionAdder& add, Options& options) {
 }
 
 void add_view_options(OptionAdder& add, Options& options) {
-  add.group("Camera (what is not given is chosen to show the whole scene)");
+  add.group("Camera (what is not given is the scene's, or chosen to show all of it)");
   add.value("--eye", "X,Y,Z", "Where the camera is", [&](const std::string& name, const std::string& text) {
     options.eye = parse_vector(name, text);
   });
@@ -166,10 +167,14 @@ void add_view_options(OptionAdder& add, Options& options) {
     options.look_at = parse_vector(name, text);
   });
   add.value("--up", "X,Y,Z", "Which way is up [0,1,0]",
-            [&](const std::string& name, const std::string& text) { options.up = parse_vector(name, text); });
+            [&](const std::string& name, const std::string& text) {
+              options.up = parse_vector(name, text);
+              options.up_given = true;
+            });
   add.value("--fov", "DEG", "Vertical field of view in degrees [40]",
             [&](const std::string& name, const std::string& text) {
               options.fov_degrees = parse_number(name, text);
+              options.fov_given = true;
               if (options.fov_degrees <= 0 || options.fov_degrees >= 180) {
                 throw UsageError(name + ": '" + text + "' is not an angle between 0 and 180");
               }
@@ -214,7 +219,7 @@ void check_together(Options& options) {
 }
 
 void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
-  add.group("Light (without --light: a key light and a fill light)");
+  add.group("Light (without --light: the scene's, or a key light and a fill light)");
   app.add_option_function<std::vector<std::string>>(
          "--light",
          [&options](const std::vector<std::string>& texts) {
@@ -225,7 +230,7 @@ void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Light (without --light: a key light and a fill light)");
+      ->group("Light (without --light: the scene's, or a key light and a fill light)");
   add.value(
       "--ambient", "R,G,B", "Light that is everywhere",
       [&](const std::string& name, const std::string& text) { options.ambient = parse_color(name, text); });
@@ -270,12 +275,13 @@ void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  CLI::App app("Ray traces a 3D model (Wavefront OBJ) and writes the picture.", "fastrt");
+  CLI::App app("Ray traces a 3D model (Wavefront OBJ, NFF) and writes the picture.", "fastrt");
   app.get_formatter()->column_width(34);
   app.get_formatter()->label("OPTIONS", "options");
   app.get_formatter()->label("Positionals", "Scene");
   app.footer(examples);
-  app.add_option("scene", options.scene, "The scene: an .obj file; after '--' its name may begin with '-'")
+  app.add_option("scene", options.scene,
+                 "The scene: an .obj or .nff file; after '--' its name may begin with '-'")
       ->option_text("FILE")
       ->required();
   app.set_help_flag();

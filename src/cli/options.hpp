@@ -34,6 +34,8 @@ struct Options {
   int max_depth = 8;
   float min_contribution = 1.0F / 256;
 
+  // Whether these were asked for: a scene file may say otherwise.
+  bool resolution_given = false, up_given = false, fov_given = false;
   std::optional<Vec3> eye, look_at;
   Vec3 up{0.0F, 1.0F, 0.0F};
   float fov_degrees = 40.0F;

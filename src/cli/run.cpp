@@ -85,12 +85,21 @@ fs::path choose_output(const Options& options) {
   return path;
 }
 
-Camera choose_camera(const Options& options, const Aabb& bounds) {
+// The size of the picture is the command line's, else the scene's, else the default.
+void choose_resolution(const SceneDesc& desc, Options& options) {
+  if (options.resolution_given || desc.width == 0 || desc.height == 0) return;
+  options.width = desc.width;
+  options.height = desc.height;
+  check_image_size(options);
+}
+
+Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  Camera camera = frame_scene(bounds, options.fov_degrees, aspect, options.up);
+  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, options.fov_degrees, aspect, options.up);
   if (options.eye) camera.eye = *options.eye;
   if (options.look_at) camera.look_at = *options.look_at;
-  camera.up = options.up;
+  if (options.up_given) camera.up = options.up;
+  if (options.fov_given) camera.fov_degrees = options.fov_degrees;
   camera.window = options.window;
   camera.focal_distance = options.focal_distance;
   camera.aperture_radius = options.aperture_radius;
@@ -106,7 +115,7 @@ Camera choose_camera(const Options& options, const Aabb& bounds) {
 }
 
 void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
-  add_default_lights(desc, bounds, camera);
+  if (desc.lights.empty()) add_default_lights(desc, bounds, camera);
   if (!options.lights.empty()) desc.lights = options.lights;
   if (options.ambient) desc.ambient = *options.ambient;
   if (options.background) desc.background = *options.background;
@@ -173,6 +182,7 @@ void describe(const Options& options, const Tracer& tracer, const Frame& frame, 
   stats.isa = tracer.isa();
   stats.triangles = tracer.scene().triangle_count();
   stats.spheres = tracer.scene().sphere_count();
+  stats.shapes = tracer.scene().primitive_count() - tracer.scene().first_of(PrimitiveKind::cone);
   stats.lights = tracer.scene().lights().size();
   stats.rays = frame.rays;
   stats.bvh = tracer.bvh_stats();
@@ -205,7 +215,8 @@ bool is_standard_output(const fs::path& output) {
 
 } // namespace
 
-int run(const Options& options, Clock::time_point start) {
+int run(const Options& given, Clock::time_point start) {
+  Options options = given;
   for (const std::string& warning : options.warnings) warn(options, warning);
   RunStats stats;
   TracerSettings tracer_settings;
@@ -218,7 +229,8 @@ int run(const Options& options, Clock::time_point start) {
   Clock::time_point phase_start = Clock::now();
   SceneDesc desc = read_scene(options, stats.threads);
   const Aabb bounds = bounds_of(desc);
-  const Camera camera = choose_camera(options, bounds);
+  choose_resolution(desc, options);
+  const Camera camera = choose_camera(options, bounds, desc);
   choose_lights(options, bounds, camera, desc);
   stats.read_seconds = seconds_since(phase_start);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/material_files.hpp"
+#include "src/load/nff_reader.hpp"
 #include "src/load/obj_reader.hpp"
 #include "src/load/text.hpp"
 #include "src/scene/threads.hpp"
@@ -21,11 +22,17 @@ SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options
   return read_obj(source, settings, diagnostics);
 }
 
+SceneDesc load_nff(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  return read_nff(Source::open(path), options.strict, diagnostics);
+}
+
 SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options,
                      Diagnostics& diagnostics) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".obj") return load_obj(path, options, diagnostics);
-  throw UsageError("cannot tell the format of " + in_quotes(path.string()) + " by its name; known: .obj");
+  if (extension == ".nff") return load_nff(path, options, diagnostics);
+  throw UsageError("cannot tell the format of " + in_quotes(path.string()) +
+                   " by its name; known: .obj .nff");
 }
 
 } // namespace fastrt

@@ -98,8 +98,7 @@ std::size_t Scene::bytes() const noexcept {
   const PolygonColumns& g = desc_.polygons;
   const PlaneColumns& p = desc_.planes;
   return images + bytes_of(desc_.colors) + bytes_of(desc_.positions) + bytes_of(desc_.normals) +
-         bytes_of(desc_.uvs.x, desc_.uvs.y) +
-         bytes_of(v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object) +
+         bytes_of(desc_.uvs.x, desc_.uvs.y) + bytes_of(v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object) +
          bytes_of(s.x, s.y, s.z, s.radius, s.material, s.object) + bytes_of(c.base) + bytes_of(c.apex) +
          bytes_of(c.base_radius, c.apex_radius, c.capped, c.material, c.object) + bytes_of(d.center) +
          bytes_of(d.normal) + bytes_of(d.radius, d.material, d.object) +

@@ -61,10 +61,11 @@ Shot in_other_units(const Shot& shot, float factor) {
 
 // (u, v) of polygons and planes are lengths.
 void scale_flat_coordinates(const Scene& scene, float factor, Frame& frame) {
+  const AovPlane* const primitives = frame.find(Aov::primitive);
   for (AovPlane& plane : frame.aovs) {
-    if (plane.aov != Aov::uv) continue;
+    if (plane.aov != Aov::uv || primitives == nullptr) continue;
     for (std::size_t pixel = 0; pixel < frame.primitive.size(); ++pixel) {
-      const std::int32_t id = frame.primitive[pixel];
+      const std::int32_t id = primitives->ids[pixel];
       if (id < 0 || scene.kind(static_cast<std::uint32_t>(id)) < PrimitiveKind::polygon) continue;
       plane.values[2 * pixel] *= factor;
       plane.values[2 * pixel + 1] *= factor;

@@ -92,8 +92,8 @@ TEST_P(TracerOf, FindsSpheresByTheIdsAfterTheTriangles) {
   const reference::Hit hit = closest(tracer, ray.arrays());
   EXPECT_EQ(hit.primitive, 4);
   EXPECT_EQ(hit.t, 1.0F);
-  EXPECT_EQ(hit.u, 0.0F);
-  EXPECT_EQ(hit.v, 0.0F);
+  EXPECT_EQ(hit.u, 0.75F); // three quarters around, half-way up
+  EXPECT_EQ(hit.v, 0.5F);
 }
 
 TEST_P(TracerOf, SaysWhatAMissIs) {
