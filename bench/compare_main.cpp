@@ -4,36 +4,17 @@
 #include <fastrt/fastrt.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 #include "bench/allocations.hpp"
+#include "bench/arguments.hpp"
 #include "bench/compare_options.hpp"
 #include "bench/embree_scene.hpp"
-#include "bench/generated.hpp"
+#include "bench/models.hpp"
 #include "bench/report.hpp"
 
 namespace fastrt::bench {
 namespace {
-
-struct Model {
-  std::string name;
-  SceneDesc desc;
-};
-
-Model read_model(const std::string& argument) {
-  if (!std::filesystem::exists(argument)) return {argument, generated_scene(argument)};
-  Diagnostics diagnostics;
-  return {std::filesystem::path(argument).stem().string(), load_scene(argument, {}, diagnostics)};
-}
-
-View view_of(const Model& model, const Aabb& bounds, const CompareOptions& options) {
-  const bool inside = options.inside.value_or(model.name.find("sponza") != std::string::npos);
-  View view = inside ? inside_view(bounds) : outside_view(bounds);
-  if (options.eye) view.camera.eye = *options.eye;
-  if (options.look_at) view.camera.look_at = *options.look_at;
-  return view;
-}
 
 std::string cpu_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -78,14 +59,10 @@ Contender best_mode(const EmbreeScene& scene, const char* prefix, const RaySet& 
   std::vector<Contender> contenders;
   for (const EmbreeMode& mode : embree_modes()) contenders.push_back(scene.contender(mode));
   settings.rounds = 3;
-  const auto rates = run_rounds(contenders, set, settings, step);
-  std::size_t best = 0;
-  std::vector<double> medians;
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
-    medians.push_back(spread_of(rates[i]).median);
-    result.embree_modes.emplace_back(prefix + name_of(embree_modes()[i]), 1e-6 * medians[i]);
-    if (medians[i] > medians[best]) best = i;
-  }
+  const std::vector<double> rates = medians(run_rounds(contenders, set, settings, step));
+  for (std::size_t i = 0; i < contenders.size(); ++i)
+    result.embree_modes.emplace_back(prefix + name_of(embree_modes()[i]), 1e-6 * rates[i]);
+  const std::size_t best = fastest(rates);
   best_name = name_of(embree_modes()[best]);
   return contenders[best];
 }
@@ -155,7 +132,9 @@ void compare_model(const std::string& argument, const CompareOptions& options, R
     }
   }
   const Tracer tracer{Scene(std::move(model.desc))};
-  const View view = view_of(model, tracer.scene().bounds(), options);
+  View view = view_of(model, tracer.scene().bounds(), options.inside);
+  if (options.eye) view.camera.eye = *options.eye;
+  if (options.look_at) view.camera.look_at = *options.look_at;
   const std::vector<RaySet> sets = make_ray_sets(tracer, view, options.width, options.height, options.rays);
   const int threads = *std::max_element(options.threads.begin(), options.threads.end());
   const EmbreePair embree{build_embree_scene(tracer.scene(), false, threads),
@@ -192,13 +171,5 @@ int run(int count, char** arguments) {
 } // namespace fastrt::bench
 
 int main(int count, char** arguments) {
-  try {
-    return fastrt::bench::run(count, arguments);
-  } catch (const fastrt::UsageError& error) {
-    std::fprintf(stderr, "fastrt_compare: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "fastrt_compare: %s\n", error.what());
-    return 1;
-  }
+  return fastrt::bench::guarded_main("fastrt_compare", fastrt::bench::run, count, arguments);
 }

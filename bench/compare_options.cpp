@@ -5,32 +5,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
 
+#include "bench/arguments.hpp"
 #include "bench/ray_sets.hpp"
 
 namespace fastrt::bench {
 namespace {
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
-
-double number(const std::string& text, double smallest) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !(value >= smallest))
-    throw UsageError("'" + text + "' is not a number of at least " + std::to_string(smallest));
-  return value;
-}
 
 Vec3 vector(const std::string& text) {
   Vec3 v;
@@ -68,12 +48,11 @@ bool set_value(const std::string& name, const std::string& value, CompareOptions
     for (const std::string& isa : split(value)) options.isas.push_back(select_isa(isa));
   } else if (name == "--threads") {
     options.threads.clear();
-    for (const std::string& count : split(value))
-      options.threads.push_back(static_cast<int>(number(count, 1)));
+    for (const std::string& count : split(value)) options.threads.push_back(whole_number(count));
   } else if (name == "--rays") {
     options.rays = ray_sets(value);
   } else if (name == "--rounds") {
-    options.rounds = static_cast<int>(number(value, 1));
+    options.rounds = whole_number(value);
   } else if (name == "--seconds") {
     options.seconds = number(value, 1e-3);
   } else if (name == "--size") {

@@ -8,12 +8,6 @@
 namespace fastrt::bench {
 namespace {
 
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 // What reading the clock itself adds between two readings.
 double clock_cost() {
   static const double cost = [] {
@@ -43,6 +37,12 @@ std::size_t rays_in_chunk(const RaySet& set, std::size_t chunk) {
 }
 
 } // namespace
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 Spread spread_of(std::vector<double> values) {
   if (values.empty()) return {};
@@ -90,6 +90,16 @@ std::vector<std::vector<double>> run_rounds(std::span<const Contender> contender
     for (std::size_t i = 0; i < contenders.size(); ++i)
       rates[i].push_back(rays_per_second(contenders[i], set, settings.threads, step));
   return rates;
+}
+
+std::vector<double> medians(const std::vector<std::vector<double>>& rates) {
+  std::vector<double> result;
+  for (const std::vector<double>& rounds : rates) result.push_back(spread_of(rounds).median);
+  return result;
+}
+
+std::size_t fastest(const std::vector<double>& rates) {
+  return static_cast<std::size_t>(std::max_element(rates.begin(), rates.end()) - rates.begin());
 }
 
 Disagreement compare_answers(const Contender& a, const Contender& b, const RaySet& set) {

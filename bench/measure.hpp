@@ -10,6 +10,9 @@
 
 namespace fastrt::bench {
 
+// CPU time of the calling thread.
+double thread_seconds();
+
 struct Spread {
   double median = 0, smallest = 0, largest = 0;
 };
@@ -31,6 +34,10 @@ double rays_per_second(const Contender& contender, const RaySet& set, int thread
 // One value per round for each contender: A B C A B C ...
 std::vector<std::vector<double>> run_rounds(std::span<const Contender> contenders, const RaySet& set,
                                             const RoundSettings& settings, std::size_t step);
+
+// Of each contender's rounds, and which contender's is the largest.
+std::vector<double> medians(const std::vector<std::vector<double>>& rates);
+std::size_t fastest(const std::vector<double>& rates);
 
 // What two contenders answer differently over the whole set.
 struct Disagreement {

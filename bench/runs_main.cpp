@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "bench/arguments.hpp"
 #include "bench/measure.hpp"
 #include "bench/peer_scenes.hpp"
 #include "bench/processes.hpp"
@@ -44,14 +45,6 @@ const char* const usage = "usage: fastrt_runs [options] MODEL.obj...\n"
                           "  --keep FOLDER   leave the scenes and pictures there\n"
                           "  --json FILE     write all numbers\n";
 
-int whole_number(const std::string& text) {
-  char* end = nullptr;
-  const long value = std::strtol(text.c_str(), &end, 10);
-  if (text.empty() || *end != '\0' || value < 1 || value > 65536)
-    throw UsageError("'" + text + "' is not a number from 1 to 65536");
-  return static_cast<int>(value);
-}
-
 Options parse(int count, char** arguments) {
   Options options;
   for (int i = 1; i < count; ++i) {
@@ -66,8 +59,7 @@ Options parse(int count, char** arguments) {
       options.fastrt = value;
     } else if (name == "--threads") {
       options.threads.clear();
-      std::istringstream list(value);
-      for (std::string part; std::getline(list, part, ',');) options.threads.push_back(whole_number(part));
+      for (const std::string& part : split(value)) options.threads.push_back(whole_number(part));
     } else if (name == "--size") {
       options.size = whole_number(value);
     } else if (name == "--rounds") {
@@ -241,13 +233,5 @@ int run(int count, char** arguments) {
 } // namespace fastrt::bench
 
 int main(int count, char** arguments) {
-  try {
-    return fastrt::bench::run(count, arguments);
-  } catch (const fastrt::UsageError& error) {
-    std::fprintf(stderr, "fastrt_runs: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "fastrt_runs: %s\n", error.what());
-    return 1;
-  }
+  return fastrt::bench::guarded_main("fastrt_runs", fastrt::bench::run, count, arguments);
 }
