@@ -77,6 +77,8 @@ bool set_flag(const std::string& name, CompareOptions& options) {
     options.inside = true;
   } else if (name == "--outside") {
     options.inside = false;
+  } else if (name == "--no-scalar") {
+    std::erase(options.isas, Isa::scalar);
   } else if (name == "--no-build") {
     options.build = false;
   } else if (name == "--help" || name == "-h") {
@@ -119,6 +121,7 @@ std::string compare_usage() {
          "  --size WxH      pixels of the picture that the rays are taken from (1024x1024)\n"
          "  --eye X,Y,Z     camera; --look-at X,Y,Z its target\n"
          "  --inside        view from inside the model (names with 'sponza'); --outside\n"
+         "  --no-scalar     leave out one ray at a time through the binary tree, which is slow\n"
          "  --no-build      do not time building\n"
          "  --quick         5 rounds of 0.02 s\n"
          "  --json FILE     write all numbers\n";

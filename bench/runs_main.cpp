@@ -7,12 +7,16 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 
 #include "bench/arguments.hpp"
 #include "bench/measure.hpp"
+#include "bench/peer_commands.hpp"
 #include "bench/peer_scenes.hpp"
+#include "bench/povray_nff.hpp"
 #include "bench/processes.hpp"
 
 namespace fastrt::bench {
@@ -22,26 +26,27 @@ struct Options {
   std::string fastrt; // the program
   std::vector<std::string> models;
   std::vector<int> threads{1, 2};
-  int size = 1024, rounds = 5;
+  int size = 1024, rounds = 7;
+  double patience = 6; // seconds after which a program that ran three times does not run again
   std::string json;
   std::string keep; // folder for scenes and pictures; empty: a temporary one
 };
 
 struct Run {
-  std::string name;
-  std::vector<std::string> command;
+  PeerCommand command;
   std::vector<double> seconds, cpu_seconds;
   std::size_t peak_bytes = 0;
   int exit_code = 0;
 };
 
-const char* const usage = "usage: fastrt_runs [options] MODEL.obj...\n"
+const char* const usage = "usage: fastrt_runs [options] MODEL...\n"
                           "Times whole runs of fastrt and of what is installed of pathtracer (embree-tools), "
-                          "tachyon and povray, in turn.\n"
+                          "tachyon and povray, in turn. Models are OBJ and NFF files.\n"
                           "  --fastrt FILE   the program (fastrt of PATH)\n"
                           "  --threads LIST  1,2\n"
                           "  --size N        pixels a side (1024)\n"
-                          "  --rounds N      (5)\n"
+                          "  --rounds N      (7)\n"
+                          "  --patience S    after this many seconds three rounds of a program will do (6)\n"
                           "  --keep FOLDER   leave the scenes and pictures there\n"
                           "  --json FILE     write all numbers\n";
 
@@ -64,6 +69,8 @@ Options parse(int count, char** arguments) {
       options.size = whole_number(value);
     } else if (name == "--rounds") {
       options.rounds = whole_number(value);
+    } else if (name == "--patience") {
+      options.patience = number(value, 0);
     } else if (name == "--json") {
       options.json = value;
     } else if (name == "--keep") {
@@ -93,65 +100,25 @@ public:
     std::error_code ignored;
     if (temporary_) std::filesystem::remove_all(path_, ignored);
   }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
 
 private:
   std::filesystem::path path_;
   bool temporary_;
 };
 
-void add_vector(std::vector<std::string>& command, const char* option, const Vec3& v) {
-  command.emplace_back(option);
-  for (int c = 0; c < 3; ++c) command.push_back(std::to_string(v[c]));
+// Whether a program has run long enough to be known, so that slow ones do not take minutes.
+bool known(const Run& run, double patience) {
+  constexpr std::size_t enough = 3;
+  return run.exit_code != 0 || (run.seconds.size() >= enough &&
+                                std::accumulate(run.seconds.begin(), run.seconds.end(), 0.0) > patience);
 }
 
-std::vector<std::string> pathtracer_command(const std::string& program, const std::string& model,
-                                            const Picture& picture, const std::string& threads,
-                                            const std::string& out) {
-  const std::string size = std::to_string(picture.size);
-  std::vector<std::string> command{program, "-i", model, "-o", out, "--size", size, size};
-  add_vector(command, "--vp", picture.camera.eye);
-  add_vector(command, "--vi", picture.camera.look_at);
-  add_vector(command, "--vu", picture.camera.up);
-  add_vector(command, "--directionallight", picture.light_travel);
-  for (const char* word : {"2.8", "2.8", "2.8", "--spp", "1", "--max-path-length", "1"})
-    command.emplace_back(word);
-  command.insert(command.end(), {"--fov", std::to_string(picture.camera.fov_degrees), "--threads", threads});
-  return command;
-}
-
-std::vector<Run> make_runs(const Options& options, const std::string& model, const Picture& picture,
-                           int thread_count, const WorkFolder& folder) {
-  const std::string threads = std::to_string(thread_count), size = std::to_string(picture.size);
-  std::vector<Run> runs;
-  const auto add = [&](const std::string& name, std::vector<std::string> command) {
-    Run& run = runs.emplace_back();
-    run.name = name;
-    run.command = std::move(command);
-  };
-  for (const std::string format : {"ppm", "png"})
-    add("fastrt (" + format + ")", {options.fastrt, model, "--quiet", "--resolution", size + 'x' + size,
-                                    "--threads", threads, "--output", folder.file("fastrt." + format)});
-  if (const auto program = find_program("pathtracer"))
-    add("embree pathtracer",
-        pathtracer_command(*program, model, picture, threads, folder.file("embree.ppm")));
-  for (const char* name : {"tachyon-nox", "tachyon"})
-    if (const auto program = find_program(name)) {
-      add("tachyon", {*program, folder.file("scene.dat"), "-numthreads", threads, "-format", "PPM", "-o",
-                      folder.file("tachyon.ppm")});
-      break;
-    }
-  if (const auto program = find_program("povray"))
-    add("povray", {*program, "+I" + folder.file("scene.pov"), "+O" + folder.file("povray.ppm"), "+FP",
-                   "+W" + size, "+H" + size, "+WT" + threads, "-D", "-A", "-V"});
-  return runs;
-}
-
-void measure(std::vector<Run>& runs, int rounds) {
-  for (int round = 0; round < rounds; ++round)
+void measure(std::vector<Run>& runs, const Options& options) {
+  for (int round = 0; round < options.rounds; ++round)
     for (Run& run : runs) {
-      if (run.exit_code != 0) continue;
-      const ProcessResult result = run_process(run.command);
+      if (known(run, options.patience)) continue;
+      const ProcessResult result = run_process(run.command.words);
       run.exit_code = result.exit_code;
       run.seconds.push_back(result.seconds);
       run.cpu_seconds.push_back(result.cpu_seconds);
@@ -161,6 +128,7 @@ void measure(std::vector<Run>& runs, int rounds) {
 
 Spread ratio_to_first(const std::vector<Run>& runs, const Run& run) {
   std::vector<double> ratios;
+  if (runs[0].exit_code != 0) return {};
   for (std::size_t i = 0; i < run.seconds.size() && i < runs[0].seconds.size(); ++i)
     ratios.push_back(run.seconds[i] / runs[0].seconds[i]);
   return spread_of(ratios);
@@ -171,11 +139,11 @@ void print(const std::string& model, int threads, const std::vector<Run>& runs) 
   std::printf("  %-20s %9s %9s %9s   %s\n", "", "s", "CPU s", "peak MB", "times fastrt's");
   for (const Run& run : runs) {
     if (run.exit_code != 0) {
-      std::printf("  %-20s failed, exit code %d\n", run.name.c_str(), run.exit_code);
+      std::printf("  %-20s failed, exit code %d\n", run.command.name.c_str(), run.exit_code);
       continue;
     }
     const Spread ratio = ratio_to_first(runs, run);
-    std::printf("  %-20s %9.3f %9.3f %9.1f   %.2f (%.2f-%.2f)\n", run.name.c_str(),
+    std::printf("  %-20s %9.3f %9.3f %9.1f   %.2f (%.2f-%.2f)\n", run.command.name.c_str(),
                 spread_of(run.seconds).median, spread_of(run.cpu_seconds).median,
                 1e-6 * static_cast<double>(run.peak_bytes), ratio.median, ratio.smallest, ratio.largest);
   }
@@ -187,7 +155,7 @@ std::string json_of(const std::string& model, int threads, const std::vector<Run
   for (const Run& run : runs) {
     const Spread ratio = ratio_to_first(runs, run), seconds = spread_of(run.seconds);
     out << (&run == runs.data() ? "" : ",\n") << "  {\"model\": \"" << model << "\", \"threads\": " << threads
-        << ", \"program\": \"" << run.name << "\", \"exit_code\": " << run.exit_code
+        << ", \"program\": \"" << run.command.name << "\", \"exit_code\": " << run.exit_code
         << ", \"seconds\": {\"median\": " << seconds.median << ", \"min\": " << seconds.smallest
         << ", \"max\": " << seconds.largest << "}, \"cpu_seconds\": " << spread_of(run.cpu_seconds).median
         << ", \"peak_bytes\": " << run.peak_bytes << ", \"times_fastrt\": {\"median\": " << ratio.median
@@ -196,29 +164,49 @@ std::string json_of(const std::string& model, int threads, const std::vector<Run
   return out.str();
 }
 
-void run_model(const Options& options, const std::string& model, std::vector<std::string>& json) {
+std::string stem(const std::string& model) { return std::filesystem::path(model).stem().string(); }
+
+// Measures what `commands` returns for each number of threads.
+template <class Commands>
+void run_commands(const Options& options, const std::string& model, const WorkFolder& folder,
+                  const Commands& commands, std::vector<std::string>& json) {
+  for (const int threads : options.threads) {
+    std::vector<Run> runs;
+    for (PeerCommand& command : commands(RunSettings{options.fastrt, folder.path(), threads, options.size}))
+      runs.emplace_back().command = std::move(command);
+    measure(runs, options);
+    print(stem(model), threads, runs);
+    json.push_back(json_of(stem(model), threads, runs));
+  }
+}
+
+void run_obj(const Options& options, const std::string& model, std::vector<std::string>& json) {
   Diagnostics diagnostics;
   SceneDesc desc = load_scene(model, {}, diagnostics);
   const Camera camera = frame_scene(bounds_of(desc), 40.0F, 1.0F);
   add_default_lights(desc, bounds_of(desc), camera);
   const Picture picture{desc, camera, desc.lights[0].direction, options.size};
   const WorkFolder folder(options.keep);
-  write_povray(picture, folder.file("scene.pov"));
-  write_tachyon(picture, folder.file("scene.dat"));
-  const std::string name = std::filesystem::path(model).stem().string();
-  for (const int threads : options.threads) {
-    std::vector<Run> runs = make_runs(options, model, picture, threads, folder);
-    measure(runs, options.rounds);
-    print(name, threads, runs);
-    json.push_back(json_of(name, threads, runs));
-  }
+  write_povray(picture, povray_scene(folder.path()));
+  write_tachyon(picture, tachyon_scene(folder.path()));
+  const auto commands = [&](const RunSettings& settings) { return obj_commands(settings, model, picture); };
+  run_commands(options, model, folder, commands, json);
+}
+
+void run_nff(const Options& options, const std::string& model, std::vector<std::string>& json) {
+  const WorkFolder folder(options.keep);
+  write_povray_of_nff(model, povray_scene(folder.path()), RunSettings{}.depth);
+  run_commands(
+      options, model, folder, [&](const RunSettings& settings) { return nff_commands(settings, model); },
+      json);
 }
 
 int run(int count, char** arguments) {
   const Options options = parse(count, arguments);
   if (options.models.empty()) throw UsageError(std::string("no model given\n") + usage);
   std::vector<std::string> json;
-  for (const std::string& model : options.models) run_model(options, model, json);
+  for (const std::string& model : options.models)
+    (model.ends_with(".nff") ? run_nff : run_obj)(options, model, json);
   if (options.json.empty()) return 0;
   std::ofstream file(options.json);
   file << "{\"runs\": [\n";
