@@ -102,7 +102,13 @@ FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, float low_x, float hi
 
 FASTRT_INLINE void meet_leaf(const GeometryView& scene, Packet& p, const PacketM& active,
                              std::uint32_t leaf) {
-  if (leaf_group(leaf) == shape_group) return meet_shapes(scene, p, to_bits(active), leaf);
+  if (leaf_group(leaf) == shape_group) {
+    Packet met = p; // a copy, so that the packet itself need not have an address
+    meet_shapes(scene, met, to_bits(active), leaf);
+    p.t = met.t;
+    p.primitive = met.primitive;
+    return;
+  }
   const std::uint32_t first = leaf_first_block(leaf);
   const std::uint32_t end = first + leaf_blocks(leaf);
   for (std::uint32_t b = first; b != end; ++b)
