@@ -21,11 +21,15 @@ struct LoadOptions {
 // can be tolerated goes to `diagnostics`.
 SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
+// Reads a PLY file, ascii or binary: triangles, polygons and triangle strips, with normals, texture
+// coordinates and vertex colours. Throws as load_obj does; places in binary data are given in bytes.
+SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
+
 // Reads a file of the Neutral File Format: primitives, materials, lights, background, and the camera and size
 // of the picture (SceneDesc::camera, width, height). Errors and warnings as load_obj's.
 SceneDesc load_nff(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
-// Reads by the name's extension (.obj, .nff). Throws UsageError for one that is not known.
+// Reads by the name's extension (.obj, .nff, .ply). Throws UsageError for one that is not known.
 SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // The box around all primitives of a scene that is still being made; empty if it has none.

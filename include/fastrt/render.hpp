@@ -35,6 +35,7 @@ struct RenderSettings {
   // this (the square root of a channel, cut off at 1) get as many again, and again, up to most_samples.
   float adaptive = 0;
   int most_samples = 0;                // 0: 16 times samples_per_pixel
+  int light_samples = 16;              // shadow rays to each light with a size, 1..1024
   int max_depth = 8;                   // bounces after the camera ray; 0 traces none
   float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced
   std::vector<Aov> aovs; // which to record; with several samples this takes one ray more a pixel

@@ -147,6 +147,8 @@ public:
   std::uint32_t material_of(std::uint32_t primitive) const noexcept;
   std::uint32_t object_of(std::uint32_t primitive) const noexcept;
 
+  // The scene's ambient light and that of its lights.
+  Vec3 ambient() const noexcept;
   // The box around all primitives but planes; empty if there are none.
   const Aabb& bounds() const noexcept { return bounds_; }
   // Whether some material lets light through, so that shadows have colours.

@@ -225,12 +225,16 @@ void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
          [&options](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) options.lights.push_back(parse_light("--light", text));
          },
-         "point:X,Y,Z[:R,G,B] or dir:X,Y,Z[:R,G,B]; may be repeated")
+         "point:X,Y,Z or dir:X,Y,Z, then [:R,G,B]; spot, rect, disk, sphere: see README; may be repeated")
       ->option_text("LIGHT")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Light (without --light: the scene's, or a key light and a fill light)");
+  add.value("--light-samples", "N", "Shadow rays to each light with a size [16]",
+            [&](const std::string& name, const std::string& text) {
+              options.light_samples = static_cast<int>(parse_integer(name, text, 1, 1024));
+            });
   add.value(
       "--ambient", "R,G,B", "Light that is everywhere",
       [&](const std::string& name, const std::string& text) { options.ambient = parse_color(name, text); });
@@ -275,13 +279,13 @@ void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  CLI::App app("Ray traces a 3D model (Wavefront OBJ, NFF) and writes the picture.", "fastrt");
+  CLI::App app("Ray traces a 3D model (Wavefront OBJ, NFF, PLY) and writes the picture.", "fastrt");
   app.get_formatter()->column_width(34);
   app.get_formatter()->label("OPTIONS", "options");
   app.get_formatter()->label("Positionals", "Scene");
   app.footer(examples);
   app.add_option("scene", options.scene,
-                 "The scene: an .obj or .nff file; after '--' its name may begin with '-'")
+                 "The scene: an .obj, .nff or .ply file; after '--' its name may begin with '-'")
       ->option_text("FILE")
       ->required();
   app.set_help_flag();

@@ -44,6 +44,7 @@ struct Options {
   std::optional<Window> window;
   float focal_distance = 1, aperture_radius = 0, focus_distance = 0;
   std::vector<Light> lights;
+  int light_samples = 16;
   std::optional<Vec3> ambient, background;
 
   int threads = 0;                // 0: what OpenMP would take

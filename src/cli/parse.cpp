@@ -44,6 +44,95 @@ bool read_color(std::string_view text, Vec3& value) {
   return read_vector(text, value) && value.x >= 0 && value.y >= 0 && value.z >= 0;
 }
 
+// Reads a light: its kind, what belongs to it, a colour, and fields with names, all between colons.
+class LightParser {
+public:
+  LightParser(std::string_view text, Light& light) : text_(text), light_(light) {}
+
+  bool run() {
+    if (!read_kind()) return false;
+    for (bool first = true; !done_; first = false) {
+      const std::string_view field = next();
+      const std::size_t equals = field.find('=');
+      const bool fine = equals == std::string_view::npos
+                            ? first && read_color(field, light_.intensity)
+                            : read_named(field.substr(0, equals), field.substr(equals + 1));
+      if (!fine) return false;
+    }
+    return true;
+  }
+
+private:
+  std::string_view next() {
+    if (done_) return {};
+    const std::size_t colon = text_.find(':');
+    const std::string_view field = text_.substr(0, colon);
+    done_ = colon == std::string_view::npos;
+    text_ = done_ ? std::string_view() : text_.substr(colon + 1);
+    return field;
+  }
+
+  bool next_direction(Vec3& direction) { return read_vector(next(), direction) && direction != Vec3(0.0F); }
+  bool next_radius() { return read_number(next(), light_.radius) && light_.radius > 0; }
+
+  bool read_kind() {
+    const std::string_view kind = next();
+    if (kind == "dir") {
+      light_.kind = LightKind::directional;
+      return next_direction(light_.direction);
+    }
+    if (!read_vector(next(), light_.position)) return false;
+    if (kind == "point") return true;
+    if (kind == "spot") {
+      light_.kind = LightKind::spot;
+      return next_direction(light_.direction) && read_cone(next());
+    }
+    if (kind == "rect") {
+      light_.kind = LightKind::rectangle;
+      return next_direction(light_.half_u) && next_direction(light_.half_v);
+    }
+    if (kind == "disk") {
+      light_.kind = LightKind::disk;
+      return next_direction(light_.direction) && next_radius();
+    }
+    light_.kind = LightKind::sphere;
+    return kind == "sphere" && next_radius();
+  }
+
+  // cone[,penumbra[,exponent]]
+  bool read_cone(std::string_view text) {
+    float* const targets[] = {&light_.cone_degrees, &light_.penumbra_degrees, &light_.exponent};
+    light_.penumbra_degrees = 0;
+    for (float* target : targets) {
+      const std::size_t comma = text.find(',');
+      if (!read_number(text.substr(0, comma), *target) || *target < 0) return false;
+      if (comma == std::string_view::npos)
+        return light_.cone_degrees > 0 && light_.cone_degrees <= 180 &&
+               light_.penumbra_degrees <= light_.cone_degrees;
+      text = text.substr(comma + 1);
+    }
+    return false;
+  }
+
+  bool read_named(std::string_view name, std::string_view value) {
+    if (name == "ambient") return read_color(value, light_.ambient);
+    if (name == "shadows") {
+      light_.casts_shadows = value == "on";
+      return value == "on" || value == "off";
+    }
+    Vec3 fade{0.0F};
+    if (name != "fade" || !read_color(value, fade) || fade == Vec3(0.0F)) return false;
+    light_.constant = fade.x;
+    light_.linear = fade.y;
+    light_.quadratic = fade.z;
+    return light_.kind != LightKind::directional;
+  }
+
+  std::string_view text_;
+  Light& light_;
+  bool done_ = false;
+};
+
 } // namespace
 
 std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t lowest,
@@ -85,28 +174,13 @@ Resolution parse_resolution(std::string_view option, std::string_view text) {
 }
 
 Light parse_light(std::string_view option, std::string_view text) {
-  const std::string expected = "a light such as point:x,y,z or dir:x,y,z:r,g,b";
-  const std::size_t colon = text.find(':');
-  if (colon == std::string_view::npos) refuse(option, text, expected);
-  const std::string_view kind = text.substr(0, colon);
-  const std::string_view rest = text.substr(colon + 1);
-  const std::size_t second = rest.find(':');
-
   Light light;
-  Vec3 place{0.0F};
-  if (!read_vector(rest.substr(0, second), place)) refuse(option, text, expected);
-  if (second != std::string_view::npos && !read_color(rest.substr(second + 1), light.intensity)) {
-    refuse(option, text, expected);
-  }
-  if (kind == "point") {
-    light.kind = LightKind::point;
-    light.position = place;
-  } else if (kind == "dir" && place != Vec3(0.0F)) {
-    light.kind = LightKind::directional;
-    light.direction = place;
-  } else {
-    refuse(option, text, expected);
-  }
+  if (!LightParser(text, light).run())
+    refuse(option, text,
+           "a light: point:x,y,z dir:x,y,z spot:x,y,z:dx,dy,dz:cone[,penumbra[,exponent]] "
+           "rect:x,y,z:u,u,u:v,v,v "
+           "disk:x,y,z:nx,ny,nz:radius or sphere:x,y,z:radius, then [:r,g,b][:fade=c,l,q][:ambient=r,g,b]"
+           "[:shadows=off]");
   return light;
 }
 

@@ -131,6 +131,7 @@ RenderSettings render_settings(const Options& options, int threads) {
   settings.seed = options.seed;
   settings.adaptive = options.adaptive;
   settings.most_samples = options.most_samples;
+  settings.light_samples = options.light_samples;
   settings.max_depth = options.max_depth;
   settings.min_contribution = options.min_contribution;
   settings.aovs = aovs_to_render(options);

@@ -29,6 +29,8 @@ void check(const RenderSettings& settings) {
   if (settings.most_samples != 0 && settings.most_samples < settings.samples_per_pixel)
     throw UsageError("at most " + std::to_string(settings.most_samples) + " samples are less than the " +
                      std::to_string(settings.samples_per_pixel) + " of each pixel");
+  if (settings.light_samples < 1 || settings.light_samples > 1024)
+    throw UsageError("light samples must be from 1 to 1024, not " + std::to_string(settings.light_samples));
 }
 
 Crop part_of(const RenderSettings& settings) {

@@ -2,6 +2,7 @@
 #include "src/load/material_files.hpp"
 #include "src/load/nff_reader.hpp"
 #include "src/load/obj_reader.hpp"
+#include "src/load/ply_reader.hpp"
 #include "src/load/text.hpp"
 #include "src/scene/threads.hpp"
 
@@ -26,13 +27,24 @@ SceneDesc load_nff(const std::filesystem::path& path, const LoadOptions& options
   return read_nff(Source::open(path), options.strict, diagnostics);
 }
 
+SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  const Source source = Source::open(path);
+  PlyReaderSettings settings;
+  settings.strict = options.strict;
+  settings.object_name = path.stem().string();
+  SceneDesc desc = read_ply(source, settings, diagnostics);
+  source.check_unchanged();
+  return desc;
+}
+
 SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options,
                      Diagnostics& diagnostics) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".obj") return load_obj(path, options, diagnostics);
+  if (extension == ".ply") return load_ply(path, options, diagnostics);
   if (extension == ".nff") return load_nff(path, options, diagnostics);
   throw UsageError("cannot tell the format of " + in_quotes(path.string()) +
-                   " by its name; known: .obj .nff");
+                   " by its name; known: .obj .nff .ply");
 }
 
 } // namespace fastrt

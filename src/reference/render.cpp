@@ -44,12 +44,21 @@ Ray camera_ray(const CameraFrame& camera, float px, float py, const Vec2& lens, 
   return ray;
 }
 
+LightQuestion question_of(const Job& job, int x, int y, int sample) {
+  LightQuestion question{};
+  question.x = static_cast<std::uint32_t>(x);
+  question.y = static_cast<std::uint32_t>(y);
+  question.sample = static_cast<std::uint32_t>(sample);
+  question.seed = job.settings->seed;
+  return question;
+}
+
 // The ray through the pixel's centre and the lens's.
 Vec3 trace_center(const Job& job, int x, int y, RayCounts& rays, Sight& sight) {
   ++rays.primary;
   const Ray ray = camera_ray(job.camera, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F,
                              Vec2(0.0F), job.footprint);
-  return ray_trace(*job.scene, *job.finder, ray, *job.settings, rays, sight);
+  return ray_trace(*job.scene, *job.finder, ray, *job.settings, question_of(job, x, y, 0), rays, sight);
 }
 
 Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sight& sight) {
@@ -62,7 +71,7 @@ Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sig
   ++rays.primary;
   const Ray ray = camera_ray(job.camera, (static_cast<float>(x) + 0.5F) + offset.x,
                              (static_cast<float>(y) + 0.5F) + offset.y, {lens.x, lens.y}, job.footprint);
-  return ray_trace(*job.scene, *job.finder, ray, *job.settings, rays, sight);
+  return ray_trace(*job.scene, *job.finder, ray, *job.settings, question_of(job, x, y, sample), rays, sight);
 }
 
 std::size_t index_of(const Frame& frame, int x, int y) {

@@ -3,6 +3,7 @@
 
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/textures.hpp"
+#include "src/scene/light_numbers.hpp"
 #include "src/simd/shared_math.hpp"
 
 namespace fastrt::reference {
@@ -38,14 +39,15 @@ namespace {
 
 // A point light's shadow ray comes from the light: rays from one origin share work elsewhere, and 0 < t < 1
 // is the way to the surface. A directional light's goes towards it, without end.
-Ray shadow_ray(const Light& light, const Surface& surface, const Vec3& to_light) {
+// position: of the light, or of the point of it that is asked.
+Ray shadow_ray(const Light& light, const Vec3& position, const Surface& surface, const Vec3& to_light) {
   Ray ray;
   ray.excluded = surface.planar;
-  if (light.kind == LightKind::point) {
-    const float offset = offset_for(max(surface.magnitude, largest_magnitude(light.position)));
+  if (light.kind != LightKind::directional) {
+    const float offset = offset_for(max(surface.magnitude, light_magnitude(light)));
     const Vec3 end = surface.point + offset * surface.geometric_normal;
-    ray.origin = light.position;
-    ray.direction = end - light.position;
+    ray.origin = position;
+    ray.direction = end - position;
     ray.t_max = 1.0F;
   } else {
     ray.origin = surface.point + offset_for(surface.magnitude) * surface.geometric_normal;
@@ -69,28 +71,92 @@ Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
   return left;
 }
 
+// A point of a light with a size.
+Vec3 point_of(const Light& light, const LightQuestion& question, int index, int count) {
+  const LightAxes axes = light_axes(light);
+  const LightPlace place = light_place(shape_of(light), question, static_cast<std::uint32_t>(index),
+                                       static_cast<std::uint32_t>(count));
+  return ((light.position + place.x * axes.u) + place.y * axes.v) + place.z * axes.w;
+}
+
+// How much of a spot light's intensity goes into a direction; 0 outside of its cone.
+float spot_share(const Light& light, const Vec3& to_light) {
+  const SpotCone cone = spot_cone(light);
+  const float x = glm::dot(-to_light, cone.axis);
+  if (!(x > cone.rim)) return 0.0F;
+  const float y = min((x - cone.rim) * cone.inverse_width, 1.0F);
+  const float soft = (y * y) * (3.0F - 2.0F * y);
+  if (light.exponent == 0.0F) return soft;
+  return soft * (x > 0.0F ? shared_pow(x, light.exponent) : 0.0F);
+}
+
+// What every light has to say of one surface.
+class Lighting {
+public:
+  Lighting(const Scene& scene, const HitFinder& finder, const Surface& surface)
+      : scene_(scene), finder_(finder), surface_(surface), material_(scene.materials()[surface.material]),
+        finish_(finish_of(material_, surface)) {}
+
+  const Finish& finish() const { return finish_; }
+  // Adds what the light at `position` gives to `lit`. share: of one of a light's points; 0 of a light
+  // without a size.
+  void add(const Light& light, const Vec3& position, float share, Vec3& lit, RayCounts& rays,
+           Vec3& light_left) const;
+
+private:
+  const Scene& scene_;
+  const HitFinder& finder_;
+  const Surface& surface_;
+  const Material& material_;
+  Finish finish_;
+};
+
+void Lighting::add(const Light& light, const Vec3& position, float share, Vec3& lit, RayCounts& rays,
+                   Vec3& light_left) const {
+  const bool is_directional = light.kind == LightKind::directional;
+  const bool is_spot = light.kind == LightKind::spot;
+  const Vec3 way = is_directional ? -light.direction : position - surface_.point;
+  const Vec3 to_light = glm::normalize(way);
+  const float cos_g = glm::dot(surface_.geometric_normal, to_light);
+  const float cos_n = glm::dot(surface_.shading_normal, to_light);
+  if (!(cos_g > 0.0F && cos_n > 0.0F)) return;
+  Vec3 intensity = light.intensity;
+  if (is_spot || share != 0.0F || fades(light)) {
+    const float d = std::sqrt(glm::dot(way, way));
+    float strength = 1.0F / (light.constant + d * (light.linear + light.quadratic * d));
+    if (is_spot && !(glm::dot(-to_light, spot_cone(light).axis) > spot_cone(light).rim)) return;
+    if (is_spot) strength = strength * spot_share(light, to_light);
+    if (share != 0.0F) strength = strength * share;
+    intensity = intensity * strength;
+  }
+  Vec3 shadow{1.0F};
+  if (light.casts_shadows) {
+    ++rays.shadow;
+    shadow = let_through(scene_, finder_, shadow_ray(light, position, surface_, to_light));
+    light_left = light_left + (share != 0.0F ? shadow * share : shadow);
+  }
+  lit = lit + (phong_model(material_, finish_, surface_, to_light, cos_n) * intensity) * shadow;
+}
+
 } // namespace
 
-Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays,
-           Vec3& light_left) {
-  const Material& material = scene.materials()[surface.material];
-  const Finish finish = finish_of(material, surface);
-  if (material.unlit) return finish.emission + finish.diffuse;
+Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, const LightSampling& sampling,
+           RayCounts& rays, Vec3& light_left) {
+  const Lighting lighting(scene, finder, surface);
+  const Finish& finish = lighting.finish();
+  if (scene.materials()[surface.material].unlit) return finish.emission + finish.diffuse;
 
-  Vec3 lit = finish.ambient * scene.desc().ambient;
+  Vec3 lit = finish.ambient * scene.ambient();
+  LightQuestion question = sampling.question;
   for (const Light& light : scene.lights()) {
-    const Vec3 to_light =
-        glm::normalize(light.kind == LightKind::point ? light.position - surface.point : -light.direction);
-    const float cos_g = glm::dot(surface.geometric_normal, to_light);
-    const float cos_n = glm::dot(surface.shading_normal, to_light);
-    if (!(cos_g > 0.0F && cos_n > 0.0F)) continue;
-    Vec3 shadow{1.0F};
-    if (light.casts_shadows) {
-      ++rays.shadow;
-      shadow = let_through(scene, finder, shadow_ray(light, surface, to_light));
-      light_left = light_left + shadow;
+    if (shape_of(light) == LightShape::none) {
+      lighting.add(light, light.position, 0.0F, lit, rays, light_left);
+    } else {
+      const float share = 1.0F / static_cast<float>(sampling.count);
+      for (int i = 0; i < sampling.count; ++i)
+        lighting.add(light, point_of(light, question, i, sampling.count), share, lit, rays, light_left);
     }
-    lit = lit + (phong_model(material, finish, surface, to_light, cos_n) * light.intensity) * shadow;
+    ++question.light;
   }
   return finish.emission + finish.opacity * lit;
 }

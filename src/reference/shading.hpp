@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "src/film/light_sampling.hpp"
 #include "src/reference/hit_finder.hpp"
 #include "src/reference/surface.hpp"
 
@@ -24,9 +25,15 @@ bool is_transmissive(const Material& material);
 Vec3 phong_model(const Material& material, const Finish& finish, const Surface& surface, const Vec3& to_light,
                  float cos_n);
 
+// Which points of lights with a size are asked.
+struct LightSampling {
+  LightQuestion question; // about light 0
+  int count = 1;          // points of each
+};
+
 // The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.
 // Each shadow that is asked for adds one to rays.shadow, and what it leaves of the light to light_left.
-Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, RayCounts& rays,
-           Vec3& light_left);
+Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, const LightSampling& sampling,
+           RayCounts& rays, Vec3& light_left);
 
 } // namespace fastrt::reference

@@ -220,8 +220,9 @@ void apply_textures(const Scene& scene, const Hit& hit, Surface& surface) {
                 material.specular * color_of(scene, material.specular_texture, site, footprint),
                 material.emission * color_of(scene, material.emission_texture, site, footprint),
                 opacity_of(scene, material, site, footprint)};
-  if (material.vertex_colors && surface.planar != no_primitive) {
-    const Vec3 color = vertex_color(scene, static_cast<std::uint32_t>(hit.primitive), site.weights);
+  const auto primitive = static_cast<std::uint32_t>(hit.primitive);
+  if (material.vertex_colors && scene.kind(primitive) == PrimitiveKind::triangle) {
+    const Vec3 color = vertex_color(scene, primitive, site.weights);
     finish.ambient = finish.ambient * color;
     finish.diffuse = finish.diffuse * color;
   }

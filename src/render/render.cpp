@@ -74,6 +74,7 @@ TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const Re
   job.last_sample = settings.samples_per_pixel == 1 ? 0 : settings.samples_per_pixel;
   job.seed = settings.seed;
   job.filter = filter_of(settings.filter);
+  job.light_samples = settings.light_samples;
   job.max_depth = std::clamp(settings.max_depth, 0, max_path_depth);
   job.min_contribution = settings.min_contribution;
   job.rgb = frame.rgb.data();

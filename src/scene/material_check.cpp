@@ -34,16 +34,36 @@ std::string fault_of(const Material& m) {
   return {};
 }
 
+std::string spot_fault(const Light& light) {
+  if (!(light.cone_degrees > 0.0F && light.cone_degrees <= 180.0F))
+    return "the cone must be greater than 0 and at most 180 degrees";
+  if (!(light.penumbra_degrees >= 0.0F && light.penumbra_degrees <= light.cone_degrees))
+    return "the penumbra must be from 0 degrees to the cone's angle";
+  return std::isfinite(light.exponent) && light.exponent >= 0.0F ? "" : "the exponent must be at least 0";
+}
+
+std::string size_fault(const Light& light) {
+  const bool is_round = light.kind == LightKind::disk || light.kind == LightKind::sphere;
+  if (is_round && !(std::isfinite(light.radius) && light.radius > 0.0F))
+    return "the radius must be greater than 0";
+  const bool has_sides = light.kind == LightKind::rectangle;
+  if (has_sides && (!is_finite(light.half_u) || !is_finite(light.half_v))) return "the sides must be finite";
+  return "";
+}
+
 std::string fault_of(const Light& light) {
   if (!is_colour(light.intensity)) return "the intensity must be finite and not negative";
-  switch (light.kind) {
-  case LightKind::point:
-    return is_finite(light.position) ? "" : "the position must be finite";
-  case LightKind::directional:
-    if (!is_finite(light.direction)) return "the direction must be finite";
-    return light.direction == Vec3(0.0F) ? "the direction must not be 0" : "";
-  }
-  return "the kind is not known";
+  if (light.kind > LightKind::sphere) return "the kind is not known";
+  if (!is_colour(light.ambient)) return "the ambient part must be finite and not negative";
+  const bool has_place = light.kind != LightKind::directional;
+  const bool has_direction = !has_place || light.kind == LightKind::spot || light.kind == LightKind::disk;
+  if (has_place && !is_finite(light.position)) return "the position must be finite";
+  if (has_direction && !is_finite(light.direction)) return "the direction must be finite";
+  if (has_direction && light.direction == Vec3(0.0F)) return "the direction must not be 0";
+  const bool falls = is_colour({light.constant, light.linear, light.quadratic}) &&
+                     light.constant + light.linear + light.quadratic > 0.0F;
+  if (has_place && !falls) return "its fall-off must be finite, not negative, and not 0";
+  return light.kind == LightKind::spot ? spot_fault(light) : size_fault(light);
 }
 
 } // namespace

@@ -65,7 +65,9 @@ std::size_t bytes_of(const Columns3& columns) { return bytes_of(columns.x, colum
 Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
   check_scene(desc_);
   for (Light& light : desc_.lights)
-    if (light.kind == LightKind::directional) tame_direction(light);
+    if (light.kind != LightKind::point && light.kind != LightKind::rectangle &&
+        light.kind != LightKind::sphere)
+      tame_direction(light);
   has_transmission_ = std::any_of(desc_.materials.begin(), desc_.materials.end(), lets_light_through);
   const std::size_t counts[primitive_kinds] = {desc_.triangles.size(), desc_.spheres.size(),
                                                desc_.cones.size(),     desc_.disks.size(),
@@ -84,6 +86,12 @@ std::uint32_t Scene::material_of(std::uint32_t primitive) const noexcept {
 std::uint32_t Scene::object_of(std::uint32_t primitive) const noexcept {
   return row_of(
       *this, primitive, [](const auto& columns) -> const auto& { return columns.object; });
+}
+
+Vec3 Scene::ambient() const noexcept {
+  Vec3 sum = desc_.ambient;
+  for (const Light& light : desc_.lights) sum = sum + light.ambient;
+  return sum;
 }
 
 std::size_t Scene::bytes() const noexcept {

@@ -3,9 +3,11 @@
 // "Shading").
 #pragma once
 
+#include "src/film/light_sampling.hpp"
 #include "src/kernels/batch_queries.hpp"
 #include "src/simd/shared_math.hpp"
 #include "src/trace/textures.hpp"
+#include "src/trace/tile_places.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -60,12 +62,70 @@ FASTRT_INLINE void begin_local_light(const ShadingView& scene, std::uint32_t bit
   store3(local, s.local_r + i, s.local_g + i, s.local_b + i);
 }
 
-// Direction and cosine of the light for rays i ..; returns the lanes that face it.
+FASTRT_INLINE PathV load_position(const LightRow& light, const LightBatch& seen, int i) {
+  return light.shape != 0 ? load3<PathF>(seen.position_x + i, seen.position_y + i, seen.position_z + i)
+                          : broadcast3<PathF>(light.position);
+}
+
+// The points of a light with a size that sample `index` asks.
+static void place_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, int index,
+                        const TileScratch& scratch, LightBatch& out) noexcept {
+  const LightRow& light = job.scene->shading.lights[k];
+  for (int i = 0; i < rays.count; ++i) {
+    const int row = rays.pixel[i];
+    const bool mixed = scratch.row_count != 0;
+    const int pixel = mixed ? scratch.row_places[row] : row;
+    const int sample = mixed ? scratch.row_samples[row] : scratch.sample;
+    const LightQuestion question{static_cast<std::uint32_t>(picture_x(job, pixel)),
+                                 static_cast<std::uint32_t>(picture_y(job, pixel)),
+                                 static_cast<std::uint32_t>(sample),
+                                 static_cast<std::uint32_t>(rays.depth),
+                                 k,
+                                 job.seed};
+    const LightPlace place =
+        light_place(static_cast<LightShape>(light.shape), question, static_cast<std::uint32_t>(index),
+                    static_cast<std::uint32_t>(job.light_samples));
+    float* const out_axes[3] = {out.position_x, out.position_y, out.position_z};
+    for (int axis = 0; axis < 3; ++axis)
+      out_axes[axis][i] =
+          ((light.position[axis] + light.half_axes[0][axis] * place.x) + light.half_axes[1][axis] * place.y) +
+          light.half_axes[2][axis] * place.z;
+  }
+}
+
+// How strong a light that varies is at rays i ..; returns the lanes that lie in its cone.
+FASTRT_INLINE std::uint32_t light_strength(const LightRow& light, const PathV& way, const PathV& to_light,
+                                           float share, int i, LightBatch& out) {
+  const PathF zero(0.0F), one(1.0F);
+  const PathF d = sqrt(dot(way, way));
+  PathF strength = one / (PathF(light.constant) + d * (PathF(light.linear) + PathF(light.quadratic) * d));
+  std::uint32_t bits = ~0U;
+  if (light.spot != 0) {
+    const PathF x = dot(negate(to_light), broadcast3<PathF>(light.axis));
+    bits = to_bits(x > PathF(light.rim));
+    const PathF y = min((x - PathF(light.rim)) * PathF(light.inverse_width), one);
+    PathF soft = (y * y) * (PathF(3.0F) - PathF(2.0F) * y);
+    if (light.exponent != 0.0F) {
+      const PathF power = shared_pow<BatchOps<widest>>(x, PathF(light.exponent));
+      soft = soft * simd::select(x > zero, power, zero);
+    }
+    strength = strength * soft;
+  }
+  if (light.shape != 0) strength = strength * PathF(share);
+  strength.store_aligned(out.strength + i);
+  return bits;
+}
+
+// Direction and cosine of the light for rays i ..; returns the lanes that face it. share: of one of its
+// samples.
 FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch& s, std::uint32_t bits,
-                                       int i, LightBatch& out) {
-  const PathV to_light = light.directional != 0
-                             ? broadcast3<PathF>(light.to_light)
-                             : normalize(broadcast3<PathF>(light.position) - load_point(s, i));
+                                       float share, int i, LightBatch& out) {
+  PathV to_light = broadcast3<PathF>(light.to_light);
+  if (light.directional == 0) {
+    const PathV way = load_position(light, out, i) - load_point(s, i);
+    to_light = normalize(way);
+    if (light.varies != 0) bits &= light_strength(light, way, to_light, share, i, out);
+  }
   const PathF zero(0.0F);
   const PathF cosine = dot(load_shading(s, i), to_light);
   store3(to_light, out.to_light_x + i, out.to_light_y + i, out.to_light_z + i);
@@ -74,8 +134,8 @@ FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch
 }
 
 // The shadow rays of lanes i .., row for row; those not in `bits` can't hit anything.
-FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s, std::uint32_t bits, int i,
-                                    RayBatch& rays) {
+FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s, const LightBatch& seen,
+                                    std::uint32_t bits, int i, RayBatch& rays) {
   const PathV normal = load_geometric(s, i);
   const PathF magnitude = PathF::load_aligned(s.magnitude + i);
   PathF reach(1.0F);
@@ -85,7 +145,7 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
     store3(broadcast3<PathF>(light.to_light), rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
     reach = PathF(__builtin_inff());
   } else {
-    const PathV position = broadcast3<PathF>(light.position);
+    const PathV position = load_position(light, seen, i);
     const PathF offset = max(magnitude, PathF(light.largest_coordinate)) * PathF(offset_share);
     store3(position, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     store3((load_point(s, i) + normal * offset) - position, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
@@ -179,59 +239,85 @@ FASTRT_INLINE void add_light(const ShadingView& scene, const LightRow& light, co
         reflected = select(mask, sum, reflected);
       });
   const PathV visible = load3<PathF>(seen.visible_r + i, seen.visible_g + i, seen.visible_b + i);
-  const PathV added = (reflected * broadcast3<PathF>(light.intensity)) * visible;
+  PathV intensity = broadcast3<PathF>(light.intensity);
+  if (light.varies != 0) intensity = intensity * PathF::load_aligned(seen.strength + i);
+  const PathV added = (reflected * intensity) * visible;
   const PathV local = load3<PathF>(s.local_r + i, s.local_g + i, s.local_b + i);
   const PathV lit = select(from_bits<widest>(bits), local + added, local);
   store3(lit, s.local_r + i, s.local_g + i, s.local_b + i);
 }
 
 // A light's shadow rays: one more ray for each lit pixel, and what the light shows of its first surface.
-static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, const LightBatch& seen,
-                           AovScratch& aov) noexcept {
+// share: of one of its samples.
+static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, const LightRow& light,
+                           float share, const LightBatch& seen, AovScratch& aov) noexcept {
   for (int i = 0; i < rays.count; ++i) {
     if (((lit[i / widest] >> (i % widest)) & 1U) == 0) continue;
     const int pixel = rays.pixel[i];
     ++aov.rays[pixel];
     if (rays.depth != 0) continue;
-    aov.lit_r[pixel] = aov.lit_r[pixel] + seen.visible_r[i];
-    aov.lit_g[pixel] = aov.lit_g[pixel] + seen.visible_g[i];
-    aov.lit_b[pixel] = aov.lit_b[pixel] + seen.visible_b[i];
+    Row3 visible{seen.visible_r[i], seen.visible_g[i], seen.visible_b[i]};
+    if (light.shape != 0) visible = visible * share;
+    aov.lit_r[pixel] = aov.lit_r[pixel] + visible.x;
+    aov.lit_g[pixel] = aov.lit_g[pixel] + visible.y;
+    aov.lit_b[pixel] = aov.lit_b[pixel] + visible.z;
   }
 }
 
-// Gathers what every light gives to the surfaces of the batch. Returns the number of shadow rays.
-static std::uint64_t gather_light(const SceneView& scene, const PathBatch& rays,
-                                  TileScratch& scratch) noexcept {
+FASTRT_INLINE BatchShape shadow_shape(const LightRow& light) {
+  if (light.shape != 0) return BatchShape::coherent;
+  return light.directional != 0 ? BatchShape::parallel : BatchShape::common_origin;
+}
+
+// Gathers what light k, or one point of it, gives to the surfaces of the batch. Returns the number of shadow
+// rays.
+static std::uint64_t gather_one_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, float share,
+                                      TileScratch& scratch) noexcept {
+  const SceneView& scene = *job.scene;
+  const LightRow& light = scene.shading.lights[k];
   SurfaceBatch& s = scratch.surface;
   LightBatch& seen = scratch.light;
-  std::uint64_t shadow_rays = 0;
-  for (std::uint32_t k = 0; k < scene.shading.light_count; ++k) {
-    const LightRow& light = scene.shading.lights[k];
-    std::uint32_t lit[batch_size / widest];
-    int lit_count = 0;
-    for (int i = 0; i < rays.count; i += widest) {
-      std::uint32_t& bits = lit[i / widest];
-      bits = s.shaded[i / widest];
-      if (bits != 0) bits = face_light(light, s, bits, i, seen);
-      make_shadow_rays(light, s, bits, i, scratch.shadow);
-      lit_count += __builtin_popcount(bits);
-    }
-    if (lit_count == 0) continue;
-    if (light.casts_shadows != 0) {
-      shadow_rays += static_cast<std::uint64_t>(lit_count);
-      scratch.shadow.count = (rays.count + widest - 1) / widest * widest;
-      scratch.shadow.shape = light.directional != 0 ? BatchShape::parallel : BatchShape::common_origin;
-      if (scene.shading.has_transmission != 0)
-        trace_coloured_shadows(scene, scratch.shadow, scratch.shadow_hits, seen);
-      else
-        trace_opaque_shadows(scene.geometry, scratch.shadow, scratch.shadow_hits, seen);
-    } else {
-      for (int i = 0; i < rays.count; i += widest)
-        store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, seen);
-    }
-    if (scratch.recording && light.casts_shadows != 0) record_shadows(rays, lit, seen, scratch.aov);
+  std::uint32_t lit[batch_size / widest];
+  int lit_count = 0;
+  for (int i = 0; i < rays.count; i += widest) {
+    std::uint32_t& bits = lit[i / widest];
+    bits = s.shaded[i / widest];
+    if (bits != 0) bits = face_light(light, s, bits, share, i, seen);
+    make_shadow_rays(light, s, seen, bits, i, scratch.shadow);
+    lit_count += __builtin_popcount(bits);
+  }
+  if (lit_count == 0) return 0;
+  if (light.casts_shadows != 0) {
+    scratch.shadow.count = (rays.count + widest - 1) / widest * widest;
+    scratch.shadow.shape = shadow_shape(light);
+    if (scene.shading.has_transmission != 0)
+      trace_coloured_shadows(scene, scratch.shadow, scratch.shadow_hits, seen);
+    else
+      trace_opaque_shadows(scene.geometry, scratch.shadow, scratch.shadow_hits, seen);
+  } else {
     for (int i = 0; i < rays.count; i += widest)
-      if (lit[i / widest] != 0) add_light(scene.shading, light, seen, lit[i / widest], i, s);
+      store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, seen);
+  }
+  if (scratch.recording && light.casts_shadows != 0)
+    record_shadows(rays, lit, light, share, seen, scratch.aov);
+  for (int i = 0; i < rays.count; i += widest)
+    if (lit[i / widest] != 0) add_light(scene.shading, light, seen, lit[i / widest], i, s);
+  return light.casts_shadows != 0 ? static_cast<std::uint64_t>(lit_count) : 0;
+}
+
+// Gathers what every light gives to the surfaces of the batch. Returns the number of shadow rays.
+static std::uint64_t gather_light(const TileJob& job, const PathBatch& rays, TileScratch& scratch) noexcept {
+  std::uint64_t shadow_rays = 0;
+  for (std::uint32_t k = 0; k < job.scene->shading.light_count; ++k) {
+    if (job.scene->shading.lights[k].shape == 0) {
+      shadow_rays += gather_one_light(job, rays, k, 1.0F, scratch);
+      continue;
+    }
+    const float share = 1.0F / static_cast<float>(job.light_samples);
+    for (int index = 0; index < job.light_samples; ++index) {
+      place_light(job, rays, k, index, scratch, scratch.light);
+      shadow_rays += gather_one_light(job, rays, k, share, scratch);
+    }
   }
   return shadow_rays;
 }

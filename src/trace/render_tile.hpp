@@ -35,6 +35,8 @@ static void trace_sample(const TileJob& job, int index, TileScratch& scratch,
   clear(scratch.radiance_r, scratch.radiance_g, scratch.radiance_b);
   PathBatch& camera_rays = take_batch(scratch, 0);
   make_camera_rays(job, index, scratch, camera_rays);
+  scratch.row_count = 0;
+  scratch.sample = index < 0 ? 0 : index;
   trace_tree(job, camera_rays, index <= 0, scratch, counts);
 }
 

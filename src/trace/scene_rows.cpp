@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/light_numbers.hpp"
 #include "src/trace/tracer_parts.hpp"
-
-#include <cmath>
 
 namespace fastrt {
 namespace {
@@ -67,8 +66,24 @@ std::vector<LightRow> light_rows(const Scene& scene) {
     copy(light.intensity, row.intensity);
     row.directional = light.kind == LightKind::directional;
     if (row.directional != 0) copy(glm::normalize(-light.direction), row.to_light);
-    row.largest_coordinate = std::fmax(std::fabs(light.position.x),
-                                       std::fmax(std::fabs(light.position.y), std::fabs(light.position.z)));
+    row.largest_coordinate = light_magnitude(light);
+    row.constant = light.constant;
+    row.linear = light.linear;
+    row.quadratic = light.quadratic;
+    row.spot = light.kind == LightKind::spot;
+    if (row.spot != 0) {
+      const SpotCone cone = spot_cone(light);
+      copy(cone.axis, row.axis);
+      row.rim = cone.rim;
+      row.inverse_width = cone.inverse_width;
+      row.exponent = light.exponent;
+    }
+    const LightAxes axes = light_axes(light);
+    copy(axes.u, row.half_axes[0]);
+    copy(axes.v, row.half_axes[1]);
+    copy(axes.w, row.half_axes[2]);
+    row.shape = static_cast<std::uint32_t>(shape_of(light));
+    row.varies = row.spot != 0 || row.shape != 0 || fades(light);
     row.casts_shadows = light.casts_shadows;
     rows.push_back(row);
   }

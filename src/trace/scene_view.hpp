@@ -98,6 +98,13 @@ struct LightRow {
   float largest_coordinate; // of the position
   std::uint32_t directional;
   std::uint32_t casts_shadows;
+  // Of the lights that not every scene has.
+  std::uint32_t shape; // a LightShape
+  std::uint32_t spot;
+  std::uint32_t varies;                        // its strength: fades, is a spot, or has a size
+  float constant, linear, quadratic;           // how it fades
+  float axis[3], rim, inverse_width, exponent; // spots
+  float half_axes[3][3];                       // of lights with a size
 };
 
 // What shading needs beyond the geometry. Columns as in TriangleColumns and SphereColumns; the normal columns

@@ -47,6 +47,9 @@ struct alignas(64) SurfaceBatch {
 struct alignas(64) LightBatch {
   float to_light_x[batch_size], to_light_y[batch_size], to_light_z[batch_size];
   float cosine[batch_size];
+  float strength[batch_size]; // of lights whose strength varies
+  float position_x[batch_size], position_y[batch_size],
+      position_z[batch_size]; // of lights with a size: the point asked
   float visible_r[batch_size], visible_g[batch_size], visible_b[batch_size]; // S
 };
 
@@ -78,7 +81,8 @@ struct TileScratch {
   std::int32_t row_places[batch_size], row_samples[batch_size];
   int row_count;
   std::int32_t first_primitive[batch_size];
-  bool recording; // AOVs, while the rays of the pixels' centres are traced
+  std::int32_t sample; // that is being traced, where row_count is 0
+  bool recording;      // AOVs, while the rays of the pixels' centres are traced
   AovScratch aov;
   // The explicit stack: batches waiting, the next on top, and those not in use.
   PathBatch* waiting[max_path_depth + 4];
@@ -112,6 +116,7 @@ struct TileJob {
   std::uint32_t seed;
   Filter filter;
   RoundView round;
+  int light_samples; // of each light with a size
   int max_depth;
   float min_contribution;
   float* rgb;              // of the frame

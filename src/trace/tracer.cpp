@@ -92,8 +92,9 @@ void fill_shading_view(Tracer::Parts& parts) {
   for (const MaterialRow& row : parts.materials) view.has_textures |= row.textures != nullptr ? 1U : 0U;
   for (const MaterialRow& row : parts.materials)
     view.has_absorption |= view.has_transmission != 0 ? row.has_absorption : 0U;
+  const Vec3 ambient = parts.scene.ambient();
   for (int c = 0; c < 3; ++c) {
-    view.ambient[c] = desc.ambient[c];
+    view.ambient[c] = ambient[c];
     view.background[c] = desc.background[c];
   }
 }

@@ -113,7 +113,7 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   const SceneView& scene = *job.scene;
   find_closest_hits(scene.geometry, rays, scratch.hits);
   see_surfaces(job, rays, scratch);
-  counts.shadow += gather_light(scene, rays, scratch);
+  counts.shadow += gather_light(job, rays, scratch);
   if (scratch.recording) record_batch(job, rays, scratch);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);

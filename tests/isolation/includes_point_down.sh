@@ -15,7 +15,7 @@ complain() {
 # The floor of a path below src/.
 floor_of() {
   case $1 in
-    simd/* | film/sampling.hpp) echo 0 ;;
+    simd/* | film/*sampling.hpp) echo 0 ;;
     load/* | oiio/* | scene/* | film/*) echo 1 ;;
     accel/*) echo 2 ;;
     trace/* | kernels/* | reference/*) echo 3 ;;

@@ -79,9 +79,59 @@ TEST(CliParse, Lights) {
   EXPECT_EQ(directional.direction, Vec3(0, -1, 0));
   EXPECT_EQ(directional.intensity, Vec3(0.5F, 0, 2));
 
-  for (const char* text : {"", "point", "point:", "point:1,2", "spot:1,2,3", "1,2,3", "dir:0,0,0",
-                           "point:1,2,3:", "point:1,2,3:1,1", "point:1,2,3:1,1,1:2", "point:1,2,3:1,-1,1",
-                           "point:1,2,nan", "POINT:1,2,3"}) {
+  const Light spot = parse_light("--light", "spot:1,2,3:0,-1,0:30,10,2:1,0,0:ambient=0.1,0.2,0.3");
+  EXPECT_EQ(spot.kind, LightKind::spot);
+  EXPECT_EQ(spot.direction, Vec3(0, -1, 0));
+  EXPECT_EQ(spot.cone_degrees, 30.0F);
+  EXPECT_EQ(spot.penumbra_degrees, 10.0F);
+  EXPECT_EQ(spot.exponent, 2.0F);
+  EXPECT_EQ(spot.intensity, Vec3(1, 0, 0));
+  EXPECT_EQ(spot.ambient, Vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(parse_light("--light", "spot:1,2,3:0,-1,0:30").penumbra_degrees, 0.0F);
+
+  const Light rectangle = parse_light("--light", "rect:1,2,3:1,0,0:0,0,2:shadows=off:fade=0,0,1");
+  EXPECT_EQ(rectangle.kind, LightKind::rectangle);
+  EXPECT_EQ(rectangle.half_u, Vec3(1, 0, 0));
+  EXPECT_EQ(rectangle.half_v, Vec3(0, 0, 2));
+  EXPECT_FALSE(rectangle.casts_shadows);
+  EXPECT_EQ(rectangle.constant, 0.0F);
+  EXPECT_EQ(rectangle.quadratic, 1.0F);
+
+  EXPECT_EQ(parse_light("--light", "disk:1,2,3:0,1,0:2").kind, LightKind::disk);
+  const Light sphere = parse_light("--light", "sphere:1,2,3:0.5:0,0,1");
+  EXPECT_EQ(sphere.kind, LightKind::sphere);
+  EXPECT_EQ(sphere.radius, 0.5F);
+  EXPECT_EQ(sphere.intensity, Vec3(0, 0, 1));
+
+  for (const char* text : {"",
+                           "point",
+                           "point:",
+                           "point:1,2",
+                           "spot:1,2,3",
+                           "1,2,3",
+                           "dir:0,0,0",
+                           "spot:1,2,3:0,0,0:30",
+                           "spot:1,2,3:0,1,0",
+                           "spot:1,2,3:0,1,0:0",
+                           "spot:1,2,3:0,1,0:181",
+                           "spot:1,2,3:0,1,0:30,31",
+                           "spot:1,2,3:0,1,0:30,1,1,1",
+                           "disk:1,2,3:0,1,0:0",
+                           "rect:1,2,3:0,1,0",
+                           "sphere:1,2,3",
+                           "sphere:1,2,3:-1",
+                           "point:1,2,3:fade=0,0,0",
+                           "dir:1,2,3:fade=1,1,1",
+                           "point:1,2,3:fade=1,1",
+                           "point:1,2,3:shadows=no",
+                           "point:1,2,3:what=1",
+                           "point:1,2,3:fade=1,0,0:1,1,1",
+                           "point:1,2,3:",
+                           "point:1,2,3:1,1",
+                           "point:1,2,3:1,1,1:2",
+                           "point:1,2,3:1,-1,1",
+                           "point:1,2,nan",
+                           "POINT:1,2,3"}) {
     EXPECT_THROW(parse_light("--light", text), UsageError) << text;
   }
 }
