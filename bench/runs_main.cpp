@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> models;
   std::vector<int> threads{1, 2};
   int size = 1024, rounds = 7;
-  double patience = 6; // seconds after which a program that ran three times does not run again
+  double patience = 10; // seconds after which a program that ran three times does not run again
   std::string json;
   std::string keep; // folder for scenes and pictures; empty: a temporary one
 };
@@ -46,7 +46,7 @@ const char* const usage = "usage: fastrt_runs [options] MODEL...\n"
                           "  --threads LIST  1,2\n"
                           "  --size N        pixels a side (1024)\n"
                           "  --rounds N      (7)\n"
-                          "  --patience S    after this many seconds three rounds of a program will do (6)\n"
+                          "  --patience S    after this many seconds three rounds of a program will do (10)\n"
                           "  --keep FOLDER   leave the scenes and pictures there\n"
                           "  --json FILE     write all numbers\n";
 

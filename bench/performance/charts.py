@@ -3,7 +3,7 @@
 from html import escape
 
 COLOURS = ("#2a6fbb", "#e08a2e", "#5a9e5d", "#9a6bb0")
-PANEL, LABEL, BAR, GAP, HEAD = 440, 118, 13, 9, 30  # pixels
+PANEL, LABEL, BAR, GAP, HEAD = 460, 146, 13, 9, 30  # pixels
 
 
 def short(value):

@@ -128,7 +128,7 @@ def whole_runs(runs, pictures):
             "From the start of the program to the finished picture: read, build, render, write; 1024 x 1024 pixels, one "
             "sample. OBJ files: one light, shadows, plain surfaces; Embree's `pathtracer` traces paths of length 1. NFF files (the "
             "Standard Procedural Databases): their own lights, shadows, mirrors and refraction, five levels; POV-Ray gets them "
-            "in its own words, Tachyon reads them itself, though not all of what they say (no cones, no refraction). The others "
+            "in its own words, Tachyon reads them itself, though not all of what they say (no cones, no refraction; its picture of gears is blank). The others "
             "write PPM. The last column is the time divided by that of fastrt writing PNG.", "",
             *picture(pictures, "runs", "Seconds of whole runs", svg),
             *table(("model", "threads", "program", "s", "CPU s", "peak MB", "times fastrt's"), rows)]
