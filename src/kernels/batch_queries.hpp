@@ -2,6 +2,7 @@
 // The two questions about a batch of rays, and the choice of how to trace it.
 #pragma once
 
+#include "src/kernels/beam_traversal.hpp"
 #include "src/kernels/tile_traversal.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -35,6 +36,15 @@ FASTRT_INLINE void clear_hits(const RayBatch& rays, HitBatch& hits) {
   }
 }
 
+// Neighbouring rays: as one beam, or where they point apart in packets.
+template <bool any>
+static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, int first,
+                        int count) noexcept {
+  if (trace_beam<any>(scene, rays, hits, first, count)) return;
+  for (int i = first; i < first + count && i < rays.count; i += widest)
+    trace_packet<any>(scene, rays, hits, i);
+}
+
 template <bool any>
 static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   if (scene.root == no_child) return;
@@ -44,7 +54,9 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
   }
   const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;
   if (alike && trace_tile<any>(scene, rays, hits)) return;
-  for (int first = 0; first < rays.count; first += widest) trace_packet<any>(scene, rays, hits, first);
+  const int end = (rays.count + group_size - 1) / group_size * group_size;
+  for (int first = 0; first < end; first += beam_size)
+    trace_alike<any>(scene, rays, hits, first, end - first < beam_size ? end - first : beam_size);
 }
 
 template <bool any>

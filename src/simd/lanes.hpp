@@ -192,6 +192,32 @@ FASTRT_INLINE F cull_mul_add(const F& a, const F& b, const F& c) {
 #endif
 }
 
+// c - a * b and a * b - c, likewise.
+template <class F>
+FASTRT_INLINE F cull_less(const F& a, const F& b, const F& c) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_fnmadd_ps(a.data, b.data, c.data));
+#endif
+#if defined(__FMA__)
+  if constexpr (width_of<F> == 8) return F(_mm256_fnmadd_ps(a.data, b.data, c.data));
+  if constexpr (width_of<F> == 4) return F(_mm_fnmadd_ps(a.data, b.data, c.data));
+#else
+  return c - a * b;
+#endif
+}
+template <class F>
+FASTRT_INLINE F cull_mul_sub(const F& a, const F& b, const F& c) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_fmsub_ps(a.data, b.data, c.data));
+#endif
+#if defined(__FMA__)
+  if constexpr (width_of<F> == 8) return F(_mm256_fmsub_ps(a.data, b.data, c.data));
+  if constexpr (width_of<F> == 4) return F(_mm_fmsub_ps(a.data, b.data, c.data));
+#else
+  return a * b - c;
+#endif
+}
+
 // What shared_math.hpp asks of a batch.
 template <int W>
 struct BatchOps {

@@ -89,6 +89,24 @@ TEST_P(LargeTraversal, OfOneDirectionFindsWhatTheScalarTreeFinds) {
   EXPECT_GT(hits_, 1500U / (slow_build ? 20U : 1U));
 }
 
+// As mirrors make them: neighbours are alike, but share neither origin nor direction; from inside the scene
+// too.
+TEST_P(LargeTraversal, OfNeighboursFindsWhatTheScalarTreeFinds) {
+  Random random(67);
+  for (int i = 0; i < effort(80); ++i) {
+    RayRun run = i % 2 == 0 ? origin_run(scene(), random) : parallel_run(scene(), random);
+    const float spread = any_size(random, -9, 0);
+    const Vec3 shift = i % 3 == 0 ? -0.7F * run[0].origin : Vec3(0.0F);
+    for (Ray& ray : run) {
+      ray.origin += shift + spread * random.in_cube();
+      ray.direction += spread * glm::length(ray.direction) * random.in_cube();
+    }
+    vary(run, scene(), false, random);
+    expect_same(run, all_count, BatchShape::coherent);
+  }
+  EXPECT_GT(hits_, 1000U / (slow_build ? 20U : 1U));
+}
+
 // A picture's tiles as a camera makes them, next to each other.
 TEST_P(LargeTraversal, OfAPicturesTilesFindsWhatTheScalarTreeFinds) {
   Random random(65);

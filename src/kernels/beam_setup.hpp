@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Up to 64 neighbouring rays with origins and directions of their own (mirrored or refracted ones), seen
+// along their middle direction: a ray is a line of the plane (x, y) that moves with depth, x = x0 + depth *
+// slope, and a group of 16 lies between such lines. So boxes and triangles are compared with groups, and with
+// rays, by their extents along the frame's axes. All of it only culls, with margins for rounding.
+//
+// Interval bounds of packets: Boulos, Wald & Shirley, "Geometric and Arithmetic Culling Methods for Entire
+// Ray Packets", 2006.
+#pragma once
+
+#include "src/kernels/tile_traversal.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+inline constexpr int beam_groups = 4;
+inline constexpr int beam_size = beam_groups * group_size;
+// Numbers larger than this, or smaller than its inverse, are no business of beams: products of three must not
+// overflow. Nor are origins so far away that the scene's size is lost in their rounding.
+inline constexpr float beam_limit = 1e12F;
+inline constexpr float far_origin = 64.0F; // scenes
+
+// The rays as lines of the plane: where they are at depth 0 and how they move. Rays that take no part are
+// NaN.
+struct alignas(64) BeamRays {
+  float x[beam_size], y[beam_size], slope_x[beam_size], slope_y[beam_size];
+  float begin[beam_size], scale[beam_size]; // depth of the origin; depth per t
+};
+
+// The lines between which a group's rays lie, and the depths at which they begin and no longer matter.
+struct BeamGroup {
+  float x0, x1, y0, y1;
+  float slope_x0, slope_x1, slope_y0, slope_y1;
+  float far;
+};
+
+struct Beam {
+  int x, y, z;        // axes of space: across, across, along
+  bool backwards;     // depth grows against the axis
+  float depth;        // depth 0 is here, where the first ray begins
+  float padding;      // boxes are met as if larger by this
+  std::uint64_t live; // bit i: ray i of the beam
+  BeamRays rays;
+  BeamGroup groups[beam_groups];
+};
+
+FASTRT_INLINE std::uint32_t rays_of_group(std::uint64_t rays, int g) {
+  return static_cast<std::uint32_t>(rays >> (g * group_size)) & 0xFFFFU;
+}
+inline constexpr std::uint32_t register_bits = (1U << (widest - 1)) * 2U - 1U;
+
+// The middle of the directions of rays first .. and which of them take part. Nowhere if some ray looks behind
+// its origin: beams don't.
+FASTRT_INLINE V3<float> sum_directions(const RayBatch& rays, int first, int count, std::uint64_t& live) {
+  live = 0;
+  V3<PacketF> sum{PacketF(0.0F), PacketF(0.0F), PacketF(0.0F)};
+  const PacketF zero(0.0F), most(__builtin_inff());
+  for (int k = 0; k < count; k += widest) {
+    const int i = first + k;
+    const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+    const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+    const PacketF finite = ((abs(origin.x) + abs(origin.y)) + abs(origin.z)) * zero;
+    const PacketF size = (abs(dir.x) + abs(dir.y)) + abs(dir.z);
+    const PacketF begin = load<PacketF>(rays.t_min + i);
+    const PacketM alive =
+        (finite == zero) & (size > zero) & (size < most) & (begin < load<PacketF>(rays.t_max + i));
+    const int left = count - k;
+    const std::uint32_t bits = to_bits(alive) & (left >= widest ? ~0U : (1U << left) - 1U);
+    if ((to_bits(begin < zero) & bits) != 0) return {0.0F, 0.0F, 0.0F};
+    live |= static_cast<std::uint64_t>(bits) << k;
+    const V3<PacketF> unit_dir = dir * (PacketF(1.0F) / size);
+    const PacketM mask = from_bits<widest>(bits);
+    sum = sum + select(mask, unit_dir, V3<PacketF>{zero, zero, zero});
+  }
+  return {simd::hadd(sum.x), simd::hadd(sum.y), simd::hadd(sum.z)};
+}
+
+struct RayColumns {
+  const float* origin[3];
+  const float* dir[3];
+};
+
+// Lines of rays k .., depth counted from the middle of space; false where one looks too far aside.
+FASTRT_INLINE bool place_rays(const RayColumns& rays, int first, int k, std::uint32_t bits, Beam& beam,
+                              PacketF& largest_origin) {
+  const int i = first + k;
+  BeamRays& out = beam.rays;
+  const PacketF sign(beam.backwards ? -0.0F : 0.0F);
+  const PacketF origin_x = load<PacketF>(rays.origin[beam.x] + i),
+                origin_y = load<PacketF>(rays.origin[beam.y] + i),
+                origin_z = flip(load<PacketF>(rays.origin[beam.z] + i), sign);
+  const PacketF dir_x = load<PacketF>(rays.dir[beam.x] + i), dir_y = load<PacketF>(rays.dir[beam.y] + i);
+  const PacketF scale = flip(load<PacketF>(rays.dir[beam.z] + i), sign), inverse = PacketF(1.0F) / scale;
+  const PacketM mask = from_bits<widest>(bits);
+  const PacketF none(__builtin_nanf(""));
+  select(mask, origin_x, none).store_aligned(out.x + k);
+  select(mask, origin_y, none).store_aligned(out.y + k);
+  select(mask, dir_x * inverse, none).store_aligned(out.slope_x + k);
+  select(mask, dir_y * inverse, none).store_aligned(out.slope_y + k);
+  select(mask, origin_z, none).store_aligned(out.begin + k);
+  scale.store_aligned(out.scale + k);
+  largest_origin =
+      max(select(mask, largest(V3<PacketF>{origin_x, origin_y, origin_z}), PacketF(0.0F)), largest_origin);
+  const PacketM forward = (PacketF(2.0F) * scale > max(abs(dir_x), abs(dir_y))) &
+                          (scale > PacketF(1.0F / beam_limit)) & (scale < PacketF(beam_limit));
+  return (to_bits(forward) & bits) == bits;
+}
+
+// Least and most of a group's 16 values; NaN counts for nothing.
+FASTRT_INLINE float least_of_group(const float* values) {
+  PacketF least(__builtin_inff());
+  for (int k = 0; k < group_size; k += widest) least = min(PacketF::load_aligned(values + k), least);
+  return reduce_min(least);
+}
+FASTRT_INLINE float most_of_group(const float* values) {
+  PacketF most(-__builtin_inff());
+  for (int k = 0; k < group_size; k += widest) most = max(PacketF::load_aligned(values + k), most);
+  return reduce_max(most);
+}
+
+// The depth beyond which nothing matters to the rays in `open` (bits) of group g.
+FASTRT_INLINE float beam_far(const Beam& beam, const HitBatch& hits, int first, int g, std::uint32_t open) {
+  PacketF most(-__builtin_inff());
+  for (int k = 0; k < group_size; k += widest) {
+    const int i = g * group_size + k;
+    const PacketF begin = PacketF::load_aligned(beam.rays.begin + i);
+    const PacketF way = load<PacketF>(hits.t + first + i) * PacketF::load_aligned(beam.rays.scale + i);
+    const PacketF far = (begin + way) + way * PacketF(depth_slack);
+    most = max(select(from_bits<widest>(open >> k & register_bits), far, PacketF(-__builtin_inff())), most);
+  }
+  return reduce_max(most);
+}
+
+FASTRT_INLINE void bound_group(Beam& beam, int g) {
+  const int i = g * group_size;
+  BeamGroup& group = beam.groups[g];
+  group.x0 = least_of_group(beam.rays.x + i) - beam.padding;
+  group.x1 = most_of_group(beam.rays.x + i) + beam.padding;
+  group.y0 = least_of_group(beam.rays.y + i) - beam.padding;
+  group.y1 = most_of_group(beam.rays.y + i) + beam.padding;
+  group.slope_x0 = least_of_group(beam.rays.slope_x + i);
+  group.slope_x1 = most_of_group(beam.rays.slope_x + i);
+  group.slope_y0 = least_of_group(beam.rays.slope_y + i);
+  group.slope_y1 = most_of_group(beam.rays.slope_y + i);
+}
+
+// Moves depth 0 to where the first ray begins, and the lines with it.
+FASTRT_INLINE void set_depth(Beam& beam, int count, float depth) {
+  for (int k = 0; k < count; k += widest) {
+    BeamRays& r = beam.rays;
+    const PacketF begin = PacketF::load_aligned(r.begin + k) - PacketF(depth);
+    begin.store_aligned(r.begin + k);
+    (PacketF::load_aligned(r.x + k) - begin * PacketF::load_aligned(r.slope_x + k)).store_aligned(r.x + k);
+    (PacketF::load_aligned(r.y + k) - begin * PacketF::load_aligned(r.slope_y + k)).store_aligned(r.y + k);
+  }
+}
+
+// Prepares rays first .. first + count - 1 (count a multiple of the group's size; what lies beyond the batch
+// takes no part). False if they point too widely apart to be seen as one.
+FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, int first, int count,
+                             Beam& beam) {
+  const V3<float> sum =
+      sum_directions(rays, first, rays.count - first < count ? rays.count - first : count, beam.live);
+  if (!(dot(sum, sum) > 0.0F)) return false;
+  const float along[3] = {magnitude(sum.x), magnitude(sum.y), magnitude(sum.z)};
+  beam.z = along[1] > along[0] ? 1 : 0;
+  if (along[2] > along[beam.z]) beam.z = 2;
+  beam.x = beam.z == 2 ? 0 : beam.z + 1;
+  beam.y = beam.z == 0 ? 2 : beam.z - 1;
+  beam.backwards = (beam.z == 0 ? sum.x : beam.z == 1 ? sum.y : sum.z) < 0.0F;
+  const RayColumns columns{{rays.origin_x, rays.origin_y, rays.origin_z},
+                           {rays.dir_x, rays.dir_y, rays.dir_z}};
+  PacketF largest_origin(0.0F);
+  for (int k = 0; k < count; k += widest)
+    if (!place_rays(columns, first, k, static_cast<std::uint32_t>(beam.live >> k) & register_bits, beam,
+                    largest_origin))
+      return false;
+  float depth = __builtin_inff();
+  for (int g = 0; g < count / group_size; ++g) {
+    const float least = least_of_group(beam.rays.begin + g * group_size);
+    depth = least < depth ? least : depth;
+  }
+  const float size = reduce_max(largest_origin);
+  if (!(size <= far_origin * scene.largest_coordinate && scene.largest_coordinate < beam_limit &&
+        scene.largest_coordinate > 1.0F / beam_limit))
+    return false;
+  beam.padding = 4.0F * box_padding * (size > scene.largest_coordinate ? size : scene.largest_coordinate);
+  set_depth(beam, count, depth);
+  for (int g = 0; g < count / group_size; ++g) bound_group(beam, g);
+  beam.depth = depth;
+  return true;
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
