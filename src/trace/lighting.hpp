@@ -264,8 +264,10 @@ static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, cons
   }
 }
 
-FASTRT_INLINE BatchShape shadow_shape(const LightRow& light) {
-  if (light.shape != 0) return BatchShape::coherent;
+// What reflected and refracted rays see is scattered: as one tile, each shadow ray would be shown what all
+// the others need, so those go as packets.
+FASTRT_INLINE BatchShape shadow_shape(const LightRow& light, int depth) {
+  if (light.shape != 0 || depth != 0) return BatchShape::coherent;
   return light.directional != 0 ? BatchShape::parallel : BatchShape::common_origin;
 }
 
@@ -289,7 +291,7 @@ static std::uint64_t gather_one_light(const TileJob& job, const PathBatch& rays,
   if (lit_count == 0) return 0;
   if (light.casts_shadows != 0) {
     scratch.shadow.count = (rays.count + widest - 1) / widest * widest;
-    scratch.shadow.shape = shadow_shape(light);
+    scratch.shadow.shape = shadow_shape(light, rays.depth);
     if (scene.shading.has_transmission != 0)
       trace_coloured_shadows(scene, scratch.shadow, scratch.shadow_hits, seen);
     else
