@@ -128,7 +128,7 @@ FASTRT_INLINE bool groups_are_compact(const TileGroups& groups) {
     if (groups.x0[g] <= groups.x1[g]) sum += (groups.x1[g] - groups.x0[g]) * (groups.y1[g] - groups.y0[g]);
   const float width = most_of(groups.x1) - least_of(groups.x0);
   const float height = most_of(groups.y1) - least_of(groups.y0);
-  return sum <= 6.0F * width * height;
+  return sum <= 1.2F * width * height;
 }
 
 // False if the rays spread too widely to be seen from one plane, or lie in it without order.
