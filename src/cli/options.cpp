@@ -204,9 +204,7 @@ void add_view_options(OptionAdder& add, Options& options) {
 
 // What options ask for together.
 void check_together(Options& options) {
-  if (options.crop && (options.crop->x1 > options.width || options.crop->y1 > options.height))
-    throw UsageError("--crop: it reaches beyond the picture of " + std::to_string(options.width) + "x" +
-                     std::to_string(options.height));
+  if (options.resolution_given) check_crop(options);
   if (options.orthographic && options.aperture_radius > 0)
     throw UsageError("--aperture: parallel rays go through no lens");
   if (options.most_samples != 0 && options.most_samples < options.samples_per_pixel)
@@ -276,6 +274,12 @@ void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::
 }
 
 } // namespace
+
+void check_crop(const Options& options) {
+  if (options.crop && (options.crop->x1 > options.width || options.crop->y1 > options.height))
+    throw UsageError("--crop: it reaches beyond the picture of " + std::to_string(options.width) + "x" +
+                     std::to_string(options.height));
+}
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;

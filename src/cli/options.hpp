@@ -64,6 +64,10 @@ struct Options {
   std::vector<std::string> warnings;
 };
 
+// Throws UsageError for a part that reaches beyond the picture. To be asked when the picture's size is
+// settled, which may be the scene's.
+void check_crop(const Options& options);
+
 // Reads the command line. Throws UsageError for what it can't make sense of.
 Options parse_options(int argc, const char* const* argv);
 

@@ -87,10 +87,13 @@ fs::path choose_output(const Options& options) {
 
 // The size of the picture is the command line's, else the scene's, else the default.
 void choose_resolution(const SceneDesc& desc, Options& options) {
-  if (options.resolution_given || desc.width == 0 || desc.height == 0) return;
-  options.width = desc.width;
-  options.height = desc.height;
-  check_image_size(options);
+  if (options.resolution_given) return;
+  if (desc.width != 0 && desc.height != 0) {
+    options.width = desc.width;
+    options.height = desc.height;
+    check_image_size(options);
+  }
+  check_crop(options);
 }
 
 Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {

@@ -28,6 +28,8 @@ view() {
     expect 0 tiny.nff -o other.pfm $option
     [ "${option% *}" = --up ] || ! cmp -s scene.pfm other.pfm || fail "$option changes nothing"
   done
+  expect 0 tiny.nff -o part.pfm --crop 40,20,48,32
+  expect_error 2 '48x32' tiny.nff -o part.pfm --crop 40,20,49,32
   # A picture of the scene as it is, spelled out: 32 rows between whose middles are 40 degrees.
   expect 0 tiny.nff -o same.pfm -r 48x32 --eye 0,0,5 --look-at 0,0,0 --up 0,1,0 --light point:5,5,5:1,1,1 \
     --background 0.25,0.5,0.75

@@ -198,7 +198,7 @@ TEST(CliOptions, UsageErrors) {
       {"a.obj", "--crop", "0,0,0,5"},
       {"a.obj", "--crop", "5,0,4,5"},
       {"a.obj", "--crop", "-1,0,4,5"},
-      {"a.obj", "--crop", "0,0,1025,5"},
+      {"a.obj", "--crop", "0,0,1025,5", "-r", "1024x768"},
       {"a.obj", "--window", "1,1,0,1"},
       {"a.obj", "--window", "0,1,0"},
       {"a.obj", "--focal", "0"},
