@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Up to 64 neighbouring rays with origins and directions of their own (mirrored or refracted ones), seen
-// along their middle direction: a ray is a line of the plane (x, y) that moves with depth, x = x0 + depth *
-// slope, and a group of 16 lies between such lines. So boxes and triangles are compared with groups, and with
-// rays, by their extents along the frame's axes. All of it only culls, with margins for rounding.
+// along the axis of space that they follow most: a ray is a point of the plane (x, y) that moves with depth,
+// x = x0 + depth * slope, and a group of 16 lies between such lines. So a box of the tree is compared with
+// groups and rays as it is. All of it only culls, with margins for rounding.
 //
 // Interval bounds of packets: Boulos, Wald & Shirley, "Geometric and Arithmetic Culling Methods for Entire
 // Ray Packets", 2006.
@@ -26,7 +26,7 @@ struct alignas(64) BeamRays {
   float begin[beam_size], scale[beam_size]; // depth of the origin; depth per t
 };
 
-// The lines between which a group's rays lie, and the depths at which they begin and no longer matter.
+// The lines between which a group's rays lie, and the depth beyond which nothing matters to them.
 struct BeamGroup {
   float x0, x1, y0, y1;
   float slope_x0, slope_x1, slope_y0, slope_y1;
@@ -48,8 +48,8 @@ FASTRT_INLINE std::uint32_t rays_of_group(std::uint64_t rays, int g) {
 }
 inline constexpr std::uint32_t register_bits = (1U << (widest - 1)) * 2U - 1U;
 
-// The middle of the directions of rays first .. and which of them take part. Nowhere if some ray looks behind
-// its origin: beams don't.
+// The sum of the directions of rays first .., each by its size, and which rays take part. Nothing if some ray
+// looks behind its origin: beams don't.
 FASTRT_INLINE V3<float> sum_directions(const RayBatch& rays, int first, int count, std::uint64_t& live) {
   live = 0;
   V3<PacketF> sum{PacketF(0.0F), PacketF(0.0F), PacketF(0.0F)};
@@ -79,7 +79,7 @@ struct RayColumns {
   const float* dir[3];
 };
 
-// Lines of rays k .., depth counted from the middle of space; false where one looks too far aside.
+// Lines of rays k .., depth counted from the origin of space; false where one looks too far aside.
 FASTRT_INLINE bool place_rays(const RayColumns& rays, int first, int k, std::uint32_t bits, Beam& beam,
                               PacketF& largest_origin) {
   const int i = first + k;

@@ -24,6 +24,18 @@ public:
   float number(PlyType type) { return format_ == PlyFormat::ascii ? text_number() : binary_number(type); }
   std::int64_t integer(PlyType type);
   void skip(PlyType type);
+  // A property of one row: its value, or all of its list.
+  void skip(const PlyProperty& property) {
+    for (std::int64_t count = property.is_list ? list_length(property) : 1; count > 0; --count)
+      skip(property.type);
+  }
+  // How many items a list has, before they are taken.
+  std::int64_t list_length(const PlyProperty& property) {
+    const char* place = p_;
+    const std::int64_t count = integer(property.count_type);
+    if (count < 0) fail_at(place, "a list of " + std::to_string(count) + " items");
+    return count;
+  }
   // So many bytes of binary data, at once.
   const char* take(std::uint64_t size);
 

@@ -3,12 +3,12 @@
 
 #include "src/load/mtl.hpp"
 #include "src/load/ply_cursor.hpp"
+#include "src/load/ply_vertices.hpp"
 #include "src/load/polygon.hpp"
 #include "src/load/text.hpp"
 
 #include <fastrt/error.hpp>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,41 +21,6 @@ namespace {
 constexpr std::uint64_t most_rows = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t most_corners = 65535;
 constexpr std::int64_t strip_end = -1;
-
-// What a vertex property fills, and the other names that it goes by.
-enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, slot_count };
-
-struct SlotName {
-  std::string_view name;
-  Slot slot;
-};
-constexpr SlotName slot_names[] = {{"x", x},
-                                   {"y", y},
-                                   {"z", z},
-                                   {"nx", nx},
-                                   {"ny", ny},
-                                   {"nz", nz},
-                                   {"u", u},
-                                   {"s", u},
-                                   {"texture_u", u},
-                                   {"v", v},
-                                   {"t", v},
-                                   {"texture_v", v},
-                                   {"red", red},
-                                   {"green", green},
-                                   {"blue", blue},
-                                   {"r", red},
-                                   {"g", green},
-                                   {"b", blue},
-                                   {"diffuse_red", red},
-                                   {"diffuse_green", green},
-                                   {"diffuse_blue", blue}};
-
-// Integer colours are codes of the sRGB curve.
-float linear_of(float code, float most) {
-  const double share = static_cast<double>(code) / static_cast<double>(most);
-  return static_cast<float>(share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4));
-}
 
 class PlyReader {
 public:
@@ -72,7 +37,7 @@ public:
     for (const PlyElement& element : header_.elements) {
       check_count(element, cursor);
       if (element.name == "vertex")
-        read_vertices(element, cursor);
+        has_vertices_ = true, read_ply_vertices(element, cursor, name_, desc_);
       else if (element.name == "face")
         read_faces(element, cursor);
       else if (element.name == "tristrips")
@@ -113,27 +78,8 @@ private:
 
   void skip(const PlyElement& element, PlyCursor& cursor) {
     for (std::uint64_t i = 0; i < element.count; ++i)
-      for (const PlyProperty& property : element.properties) skip(property, cursor);
+      for (const PlyProperty& property : element.properties) cursor.skip(property);
   }
-  void skip(const PlyProperty& property, PlyCursor& cursor) {
-    std::int64_t count = property.is_list ? length_of(property, cursor) : 1;
-    for (; count > 0; --count) cursor.skip(property.type);
-  }
-
-  std::int64_t length_of(const PlyProperty& property, PlyCursor& cursor) {
-    const char* place = cursor.place();
-    const std::int64_t count = cursor.integer(property.count_type);
-    if (count < 0) cursor.fail_at(place, "a list of " + std::to_string(count) + " items");
-    return count;
-  }
-
-  void read_vertices(const PlyElement& element, PlyCursor& cursor);
-  template <class T>
-  void read_column(const char* from, std::size_t stride, std::size_t count, Column<float>& to);
-  void read_rows(const PlyElement& element, const std::vector<int>& slots, PlyCursor& cursor);
-  void keep_columns(const PlyElement& element, const std::vector<int>& slots);
-  void check_finite(Slot first, Slot last, const char* place, std::size_t stride, const PlyCursor& cursor);
-
   const PlyProperty* find_list(const PlyElement& element);
   void read_faces(const PlyElement& element, PlyCursor& cursor);
   std::uint64_t read_plain_triangles(const PlyProperty& property, std::uint64_t most, PlyCursor& cursor);
@@ -151,7 +97,6 @@ private:
   const std::string& name_;
   PlyHeader header_;
   SceneDesc desc_;
-  std::array<Column<float>, slot_count> columns_;
   bool has_vertices_ = false;
   std::map<std::string, std::size_t> counts_; // of warnings, by kind
   PolygonTriangulator triangulator_;
@@ -159,113 +104,6 @@ private:
   std::vector<Vec3> points_;
   std::vector<PolygonTriangulator::Triangle> triangles_;
 };
-
-// Which slot each property fills; -1: none.
-std::vector<int> slots_of(const PlyElement& element) {
-  std::vector<int> slots;
-  for (const PlyProperty& property : element.properties) {
-    int found = -1;
-    for (const SlotName& known : slot_names)
-      if (!property.is_list && known.name == lower_case(property.name)) found = known.slot;
-    slots.push_back(found);
-  }
-  return slots;
-}
-
-template <class T>
-void PlyReader::read_column(const char* from, std::size_t stride, std::size_t count, Column<float>& to) {
-  float* const values = to.data();
-  if (header_.format == PlyFormat::big_endian)
-    for (std::size_t i = 0; i < count; ++i, from += stride)
-      values[i] = static_cast<float>(PlyCursor::load<T>(from, true));
-  else
-    for (std::size_t i = 0; i < count; ++i, from += stride)
-      values[i] = static_cast<float>(PlyCursor::load<T>(from, false));
-}
-
-void PlyReader::read_rows(const PlyElement& element, const std::vector<int>& slots, PlyCursor& cursor) {
-  const std::size_t width = slots.size();
-  for (std::size_t i = 0; i < element.count; ++i)
-    for (std::size_t k = 0; k < width; ++k) {
-      const PlyProperty& property = element.properties[k];
-      if (slots[k] < 0)
-        skip(property, cursor);
-      else
-        columns_[static_cast<std::size_t>(slots[k])][i] = cursor.number(property.type);
-    }
-}
-
-void PlyReader::read_vertices(const PlyElement& element, PlyCursor& cursor) {
-  has_vertices_ = true;
-  const std::vector<int> slots = slots_of(element);
-  std::size_t stride = 0;
-  bool has_list = false;
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    stride += size_of(element.properties[k].type);
-    has_list = has_list || element.properties[k].is_list;
-    if (slots[k] >= 0) columns_[static_cast<std::size_t>(slots[k])].resize(element.count);
-  }
-  const char* place = cursor.place();
-  if (header_.format == PlyFormat::ascii || has_list) {
-    read_rows(element, slots, cursor);
-  } else {
-    const char* from = cursor.take(element.count * stride);
-    for (std::size_t k = 0; k < slots.size(); ++k) {
-      const PlyType type = element.properties[k].type;
-      if (slots[k] >= 0)
-        PlyCursor::with_type(type, [&]<class T>(T) {
-          read_column<T>(from, stride, element.count, columns_[static_cast<std::size_t>(slots[k])]);
-        });
-      from += size_of(type);
-    }
-  }
-  for (const Slot axis : {x, y, z})
-    if (columns_[axis].size() != element.count)
-      throw InputError(name_ + ": the vertices have no property '" + "xyz"[axis] + "'");
-  check_finite(x, v, place, has_list ? 0 : stride, cursor);
-  keep_columns(element, slots);
-}
-
-// Binary floats may be anything; text has been looked at.
-void PlyReader::check_finite(Slot first, Slot last, const char* place, std::size_t stride,
-                             const PlyCursor& cursor) {
-  if (header_.format == PlyFormat::ascii) return;
-  for (int slot = first; slot <= last; ++slot) {
-    const Column<float>& column = columns_[static_cast<std::size_t>(slot)];
-    for (std::size_t i = 0; i < column.size(); ++i)
-      if (!std::isfinite(column[i]))
-        cursor.fail_at(place + i * stride,
-                       "vertex " + std::to_string(i) + " holds a number that is not finite");
-  }
-}
-
-// Three of a kind, or none.
-void PlyReader::keep_columns(const PlyElement& element, const std::vector<int>& slots) {
-  desc_.positions = {std::move(columns_[x]), std::move(columns_[y]), std::move(columns_[z])};
-  if (!columns_[nx].empty() && !columns_[ny].empty() && !columns_[nz].empty())
-    desc_.normals = {std::move(columns_[nx]), std::move(columns_[ny]), std::move(columns_[nz])};
-  if (!columns_[u].empty() && !columns_[v].empty())
-    desc_.uvs = {std::move(columns_[u]), std::move(columns_[v])};
-  if (columns_[red].empty() || columns_[green].empty() || columns_[blue].empty()) return;
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    const PlyType type = element.properties[k].type;
-    if (slots[k] < red) continue;
-    Column<float>& column = columns_[static_cast<std::size_t>(slots[k])];
-    if (type == PlyType::uint8) {
-      std::array<float, 256> decoded{};
-      for (std::size_t code = 0; code < 256; ++code) decoded[code] = linear_of(static_cast<float>(code), 255);
-      for (float& value : column)
-        value = value >= 0 && value <= 255 ? decoded[static_cast<std::size_t>(value)] : 1;
-    } else {
-      const float most = type == PlyType::uint16 ? 65535.0F : 255.0F;
-      for (float& value : column) {
-        if (!(value >= 0 && value < infinity)) value = 0;
-        if (is_integer(type)) value = linear_of(std::fmin(value, most), most);
-      }
-    }
-  }
-  desc_.colors = {std::move(columns_[red]), std::move(columns_[green]), std::move(columns_[blue])};
-}
 
 const PlyProperty* PlyReader::find_list(const PlyElement& element) {
   if (!has_vertices_)
@@ -318,11 +156,11 @@ void PlyReader::read_faces(const PlyElement& element, PlyCursor& cursor) {
   for (std::uint64_t i = first; i < element.count; ++i)
     for (const PlyProperty& property : element.properties) {
       if (&property != indices) {
-        skip(property, cursor);
+        cursor.skip(property);
         continue;
       }
       const char* place = cursor.place();
-      const std::int64_t count = length_of(property, cursor);
+      const std::int64_t count = cursor.list_length(property);
       if (count > most_corners) cursor.fail_at(place, "a face has at most 65535 vertices");
       corners_.clear();
       for (std::int64_t k = 0; k < count; ++k) {
@@ -340,12 +178,12 @@ void PlyReader::read_strips(const PlyElement& element, PlyCursor& cursor) {
   for (std::uint64_t i = 0; i < element.count; ++i)
     for (const PlyProperty& property : element.properties) {
       if (&property != indices) {
-        skip(property, cursor);
+        cursor.skip(property);
         continue;
       }
       std::uint32_t before[2] = {};
       std::int64_t length = 0;
-      for (std::int64_t count = length_of(property, cursor); count > 0; --count) {
+      for (std::int64_t count = cursor.list_length(property); count > 0; --count) {
         const char* at = cursor.place();
         const std::int64_t index = cursor.integer(property.type);
         if (index == strip_end) {
