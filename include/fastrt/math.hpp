@@ -31,4 +31,10 @@ struct Aabb {
   Vec3 extent() const { return upper - lower; }
 };
 
+// An affine map by what it does to the axes and the origin: a point p goes to x*p.x + y*p.y + z*p.z + origin.
+struct Affine {
+  Vec3 x{1.0F, 0.0F, 0.0F}, y{0.0F, 1.0F, 0.0F}, z{0.0F, 0.0F, 1.0F};
+  Vec3 origin{0.0F};
+};
+
 } // namespace fastrt

@@ -85,6 +85,22 @@ struct PlaneColumns {
   std::size_t size() const noexcept { return point.size(); }
 };
 
+// Primitives that are in the scene only where instances show them: rows begin[kind] .. end[kind] - 1 of the
+// columns of each kind, in the order of PrimitiveKind. Prototypes share no primitive, and planes are in none.
+// What a prototype's primitives call world space is its object space.
+struct Prototype {
+  std::array<std::uint32_t, 5> begin{}, end{};
+};
+
+// Places where the scene shows a prototype. material and object: those of everything that the instance
+// shows, or no_index where the primitives keep their own.
+struct InstanceColumns {
+  Column<std::uint32_t> prototype; // index of SceneDesc::prototypes
+  Column<Affine> to_world;         // from object space; any map that can be inverted, mirrors too
+  Column<std::uint32_t> material, object;
+  std::size_t size() const noexcept { return prototype.size(); }
+};
+
 // A scene while it is being put together: what readers and SceneBuilder fill, and Scene freezes.
 struct SceneDesc {
   Columns3 positions, normals;
@@ -96,6 +112,8 @@ struct SceneDesc {
   DiskColumns disks;
   PolygonColumns polygons;
   PlaneColumns planes;
+  std::vector<Prototype> prototypes;
+  InstanceColumns instances;
   std::vector<Material> materials;       // the primitives' material columns index these
   std::vector<Texture> textures;         // materials index these
   std::vector<std::string> object_names; // the primitives' object columns index these
