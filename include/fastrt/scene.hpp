@@ -22,6 +22,9 @@ namespace fastrt {
 // An index column's "there is none": a triangle corner without a normal or a texture coordinate.
 inline constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 
+// The instance of a hit in none.
+inline constexpr std::int32_t no_instance = -1;
+
 struct Columns2 {
   Column<float> x, y;
   std::size_t size() const noexcept { return x.size(); }
@@ -133,7 +136,7 @@ inline constexpr std::size_t primitive_kinds = 6;
 struct SceneShapes; // of the library alone
 
 // An immutable scene. Primitive ids run from 0: first all triangles, then all spheres and so on in the order
-// of PrimitiveKind, each in the order given.
+// of PrimitiveKind, each in the order given; those of prototypes too.
 class Scene {
 public:
   // Checks every index, number, material and light; throws InputError at the first that can't be used and
@@ -162,12 +165,15 @@ public:
     while (kind + 1 < primitive_kinds && primitive >= first_[kind + 1]) ++kind;
     return static_cast<PrimitiveKind>(kind);
   }
-  std::uint32_t material_of(std::uint32_t primitive) const noexcept;
-  std::uint32_t object_of(std::uint32_t primitive) const noexcept;
+  std::uint32_t instance_count() const noexcept { return static_cast<std::uint32_t>(desc_.instances.size()); }
+  // Of a primitive, or of what an instance makes of it.
+  std::uint32_t material_of(std::uint32_t primitive, std::int32_t instance = no_instance) const noexcept;
+  std::uint32_t object_of(std::uint32_t primitive, std::int32_t instance = no_instance) const noexcept;
 
   // The scene's ambient light and that of its lights.
   Vec3 ambient() const noexcept;
-  // The box around all primitives but planes; empty if there are none.
+  // The box around all instances and all primitives but planes and those of prototypes; empty if there are
+  // none.
   const Aabb& bounds() const noexcept { return bounds_; }
   // Whether some material lets light through, so that shadows have colours.
   bool has_transmission() const noexcept { return has_transmission_; }
@@ -209,6 +215,15 @@ public:
                             std::string name = {});
   std::uint32_t add_plane(const Vec3& point, const Vec3& normal, std::uint32_t material,
                           std::string name = {});
+  // Whatever is added between these two is part of a prototype, seen only where instances show it. end
+  // returns the prototype's number. Throws InputError for a prototype or a plane within a prototype, and for
+  // an end without a beginning.
+  void begin_prototype();
+  std::uint32_t end_prototype();
+  // Shows a prototype as an object of its own. material: of all of it; no_index leaves each primitive its
+  // own. Not within a prototype.
+  std::uint32_t add_instance(std::uint32_t prototype, const Affine& to_world,
+                             std::uint32_t material = no_index, std::string name = {});
   void add_light(const Light& light) { desc_.lights.push_back(light); }
   void set_ambient(const Vec3& ambient) { desc_.ambient = ambient; }
   void set_background(const Vec3& background) { desc_.background = background; }
@@ -219,6 +234,7 @@ private:
   std::uint32_t add_object(std::string name);
 
   SceneDesc desc_;
+  std::optional<Prototype> open_; // the prototype that is being put together
 };
 
 } // namespace fastrt

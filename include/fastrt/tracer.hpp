@@ -33,15 +33,18 @@ struct RayArrays {
 // Where closest_hit writes, `count` of each. On a miss: t = t_max, primitive = no_primitive, u = v = 0.
 // (u, v) of a triangle weigh its second and third vertex. Around and up: u of spheres and cones goes once
 // around the axis (a sphere's is y), v from the lower end to the upper one; a disk's v from its middle to its
-// rim. On polygons and planes they are lengths along two directions of the plane.
-// u and v may be null.
+// rim. On polygons and planes they are lengths along two directions of the plane, in a prototype's own space.
+// instance: which one shows the primitive; no_instance where none does.
+// u, v and instance may be null.
 struct HitArrays {
   float* t;
   float* u = nullptr;
   float* v = nullptr;
   std::int32_t* primitive;
+  std::int32_t* instance = nullptr;
 };
 
+// Of all trees together: the scene's, and those of the prototypes.
 struct BvhStats {
   double sah_cost = 0; // expected node visits + block tests of a random ray that meets the root box
   std::size_t node_count = 0;
@@ -72,7 +75,8 @@ public:
   Isa isa() const noexcept;
   const BvhStats& bvh_stats() const noexcept;
 
-  // The hit with the smallest t per ray; at equal t the smallest primitive id.
+  // The hit with the smallest t per ray; at equal t the smallest primitive id, and what no instance shows
+  // before what one shows.
   void closest_hit(const RayArrays& rays, const HitArrays& hits,
                    Coherence coherence = Coherence::unknown) const;
   // hit[i] = 1 if anything lies in (t_min, t_max) of ray i, else 0.

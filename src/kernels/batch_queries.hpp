@@ -7,14 +7,6 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Nothing hit yet. Fills up to the next full group, so that kernels may read whole ones.
-FASTRT_INLINE void clear_hits(const RayBatch& rays, HitBatch& hits) {
-  for (int i = 0; i < (rays.count + group_size - 1) / group_size * group_size; i += widest) {
-    load<PacketF>(rays.t_max + i).store_aligned(hits.t + i);
-    PacketI(-1).store_aligned(hits.primitive + i);
-  }
-}
-
 // The planes, which no tree holds: after it, so that it culls by its own hits alone.
 [[gnu::noinline]] static void meet_planes(const ShapeView& shapes, const RayBatch& rays,
                                           HitBatch& hits) noexcept {

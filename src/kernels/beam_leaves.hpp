@@ -172,10 +172,30 @@ FASTRT_INLINE Extents<LeafF> extents_of_shapes(const Beam& beam, const BlockRun<
   return {along(beam.x), along(beam.y), in_depth(beam, along(beam.z))};
 }
 
+// An instance against the rays of the beam in `rays`.
+template <bool any>
+FASTRT_INLINE void meet_instance(BeamTraversal<any>& t, std::int32_t id, std::uint64_t rays) {
+  InstanceVisit visit;
+  visit.shape = BatchShape::coherent;
+  visit.unit = group_size / widest;
+  visit.count = 0;
+  for (int g = 0; g < beam_groups; ++g)
+    if (const std::uint32_t group = rays_of_group(any ? rays & t.open : rays, g); group != 0)
+      add_group(visit, t.first + g * group_size, group);
+  std::uint32_t changed[batch_groups] = {};
+  meet_instance<any>(t.scene, t.rays, t.hits, id, visit, changed);
+  for (int g = 0; g < beam_groups; ++g) {
+    const int group = t.first / group_size + g;
+    if (group < batch_groups && changed[group] != 0) shorten_group(t, g, changed[group]);
+  }
+}
+
 template <bool any>
 [[gnu::noinline]] static void meet_shapes(BeamTraversal<any>& t, const BlockRun<ShapeBlock>& run,
                                           std::uint64_t rays) noexcept {
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
+  std::uint64_t visitors[leaf_lanes] = {}; // of instances, all groups together
+  std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
     const std::uint32_t group = rays_of_group(rays, g);
     if (group == 0) continue;
@@ -184,6 +204,11 @@ template <bool any>
       const int lane = __builtin_ctz(lanes);
       const std::int32_t id = run.primitive(lane);
       if (id < 0 || lane >= run.lanes) continue;
+      if (is_instance(t.scene, id)) {
+        visitors[lane] |= static_cast<std::uint64_t>(group) << (g * group_size);
+        instances |= 1U << lane;
+        continue;
+      }
       changed |= meet_beam_group(t, g, group, id, [&](int i) -> MetLanes {
         const ShapeLanes<PacketF> met =
             intersect_shape(t.scene.shapes, id, load_origin(t.rays, i), load_dir(t.rays, i),
@@ -192,6 +217,10 @@ template <bool any>
       });
     }
     if (changed != 0) shorten_group(t, g, changed);
+  }
+  for (; instances != 0; instances &= instances - 1) {
+    const int lane = __builtin_ctz(instances);
+    meet_instance(t, run.primitive(lane), visitors[lane]);
   }
 }
 

@@ -84,15 +84,40 @@ FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, float low_x, float hi
                          depth_bound(p.t));
 }
 
+// The batch that a packet is part of: rays first ..
+struct PacketBatch {
+  const RayBatch& rays;
+  HitBatch& hits;
+  int first;
+};
+
+template <bool any>
+FASTRT_INLINE void meet_instance(const GeometryView& scene, const PacketBatch& batch, Packet& p,
+                                 std::uint32_t active, std::int32_t id) {
+  p.t.store_unaligned(batch.hits.t + batch.first);
+  p.primitive.store_unaligned(batch.hits.primitive + batch.first);
+  InstanceVisit visit{BatchShape::coherent, 1, 0, {}, {}};
+  add_rays(visit, batch.first, active);
+  std::uint32_t changed[batch_groups] = {};
+  meet_instance<any>(scene, batch.rays, batch.hits, id, visit, changed);
+  p.t = load<PacketF>(batch.hits.t + batch.first);
+  p.primitive = load<PacketI>(batch.hits.primitive + batch.first);
+}
+
 // The packet against the shapes of a leaf, each met by those rays that meet its box.
-[[gnu::noinline]] static void meet_shapes(const GeometryView& scene, Packet& p, std::uint32_t active,
-                                          std::uint32_t leaf) noexcept {
+template <bool any>
+[[gnu::noinline]] static void meet_shapes(const GeometryView& scene, const PacketBatch& batch, Packet& p,
+                                          std::uint32_t active, std::uint32_t leaf) noexcept {
   const ShapeBlock* block = scene.shape_blocks + leaf_first_block(leaf);
   for (const ShapeBlock* const end = block + leaf_blocks(leaf); block != end; ++block)
     for (int i = 0; i < block_size && block->primitive[i] >= 0; ++i) {
       const SlabLanes<PacketF> slab = meet_box(p, block->low_x[i], block->high_x[i], block->low_y[i],
                                                block->high_y[i], block->low_z[i], block->high_z[i]);
       if ((to_bits(slab.near <= slab.far) & active) == 0) continue;
+      if (is_instance(scene, block->primitive[i])) {
+        meet_instance<any>(scene, batch, p, active, block->primitive[i]);
+        continue;
+      }
       const ShapeLanes<PacketF> met =
           intersect_shape(scene.shapes, block->primitive[i], p.origin, p.dir, p.t_min);
       const PacketM hit = met.hit & from_bits<widest>(active);
@@ -100,11 +125,12 @@ FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, float low_x, float hi
     }
 }
 
-FASTRT_INLINE void meet_leaf(const GeometryView& scene, Packet& p, const PacketM& active,
-                             std::uint32_t leaf) {
+template <bool any>
+FASTRT_INLINE void meet_leaf(const GeometryView& scene, const PacketBatch& batch, Packet& p,
+                             const PacketM& active, std::uint32_t leaf) {
   if (leaf_group(leaf) == shape_group) {
     Packet met = p; // a copy, so that the packet itself need not have an address
-    meet_shapes(scene, met, to_bits(active), leaf);
+    meet_shapes<any>(scene, batch, met, to_bits(active), leaf);
     p.t = met.t;
     p.primitive = met.primitive;
     return;
@@ -187,7 +213,7 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
     const std::uint32_t active_bits = to_bits(active);
     if (active_bits == 0) continue;
     if (is_leaf(child)) {
-      meet_leaf(scene, p, active, child);
+      meet_leaf<any>(scene, {rays, hits, first}, p, active, child);
       continue;
     }
     if (__builtin_popcount(active_bits) <= lone_ray_limit) {

@@ -127,14 +127,25 @@ FASTRT_INLINE void meet_run(LoneRay& ray, const BlockRun<SphereBlock>& run) {
   if (hit != 0) keep_closest(ray, hit, lanes.t, run);
 }
 
-FASTRT_INLINE void meet_leaf(const GeometryView& scene, LoneRay& ray, std::uint32_t leaf) {
+// Rays of a batch that are yet to start.
+struct LoneQueue {
+  const RayBatch& rays;
+  HitBatch& hits;
+  std::uint32_t start; // the subtree that they go through
+  const std::uint8_t* next;
+  const std::uint8_t* end; // of their places in the batch
+};
+
+template <bool any>
+FASTRT_INLINE void meet_leaf(const GeometryView& scene, const LoneQueue& queue, int i, LoneRay& ray,
+                             std::uint32_t leaf) {
   const auto meet = [&](const auto& run) { meet_run(ray, run); };
   if (leaf_group(leaf) == triangle_group)
     for_each_run(scene.triangles, leaf, meet);
   else if (leaf_group(leaf) == sphere_group)
     for_each_run(scene.spheres, leaf, meet);
   else
-    meet_shapes(scene, ray, leaf);
+    meet_shapes<any>(scene, queue.rays, queue.hits, i, ray, leaf);
 }
 
 FASTRT_INLINE SlabAxis<Floats<node_lanes>> spread_axis(const SlabAxis<float>& axis) {
@@ -202,24 +213,15 @@ FASTRT_INLINE void prefetch_node(const WideNode* node) {
 
 // Meets leaves until the slot is at an inner node; false if the ray has come to its end.
 template <bool any>
-FASTRT_INLINE bool reach_node(const GeometryView& scene, LoneSlot& slot) {
+FASTRT_INLINE bool reach_node(const GeometryView& scene, const LoneQueue& queue, LoneSlot& slot) {
   while (is_leaf(slot.child)) {
-    meet_leaf(scene, slot.ray, slot.child);
+    meet_leaf<any>(scene, queue, slot.index, slot.ray, slot.child);
     if (any && slot.ray.primitive >= 0) return false;
     if (!take_waiting(slot)) return false;
   }
   prefetch_node(scene.nodes + slot.child);
   return true;
 }
-
-// Rays of a batch that are yet to start.
-struct LoneQueue {
-  const RayBatch& rays;
-  HitBatch& hits;
-  std::uint32_t start; // the subtree that they go through
-  const std::uint8_t* next;
-  const std::uint8_t* end; // of their places in the batch
-};
 
 // Puts the next ray that reaches an inner node into the slot; false if there is none.
 template <bool any>
@@ -230,7 +232,7 @@ static bool start_ray(const GeometryView& scene, LoneQueue& queue, LoneSlot& slo
     slot.index = i;
     slot.child = queue.start;
     slot.top = slot.stack;
-    if (reach_node<any>(scene, slot)) return true;
+    if (reach_node<any>(scene, queue, slot)) return true;
     queue.hits.t[i] = slot.ray.t;
     queue.hits.primitive[i] = slot.ray.primitive;
   }
@@ -239,12 +241,12 @@ static bool start_ray(const GeometryView& scene, LoneQueue& queue, LoneSlot& slo
 
 // One step of a slot whose node has been met; false if its ray has come to its end.
 template <bool any>
-static bool go_on(const GeometryView& scene, LoneSlot& slot) noexcept {
+static bool go_on(const GeometryView& scene, const LoneQueue& queue, LoneSlot& slot) noexcept {
   if (slot.met != 0)
     descend(scene.nodes[slot.child], slot);
   else if (!take_waiting(slot))
     return false;
-  return reach_node<any>(scene, slot);
+  return reach_node<any>(scene, queue, slot);
 }
 
 // The rays of the queue, each continuing from what `hits` holds. any: ends at the first hit, whichever it is.
@@ -261,7 +263,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
     for (int s = 0; s < count; ++s) meet_node(scene, *slots[s]);
     for (int s = 0; s < count;) {
       LoneSlot& slot = *slots[s];
-      if (!go_on<any>(scene, slot)) {
+      if (!go_on<any>(scene, queue, slot)) {
         queue.hits.t[slot.index] = slot.ray.t;
         queue.hits.primitive[slot.index] = slot.ray.primitive;
         if (!start_ray<any>(scene, queue, slot)) {

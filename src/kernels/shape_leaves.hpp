@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaves of cones, disks and polygons: each primitive's own box first, for their tests take long.
+// Leaves of cones, disks, polygons and instances: each one's own box first, for their tests take long.
 #pragma once
 
+#include "src/kernels/instances.hpp"
 #include "src/kernels/leaf_lanes.hpp"
 #include "src/kernels/shapes.hpp"
 #include "src/kernels/slab.hpp"
@@ -34,15 +35,32 @@ FASTRT_INLINE std::uint32_t boxes_met(const Ray& ray, const BlockRun<ShapeBlock>
   return to_bits(slab.near <= slab.far) & ((1U << run.lanes) - 1U);
 }
 
-// One ray against the shapes of a leaf; the same in all lanes.
-template <class Ray>
-[[gnu::noinline]] static void meet_shapes(const GeometryView& scene, Ray& ray, std::uint32_t leaf) noexcept {
+// Whether a leaf's shape is an instance: planes are in no leaf.
+FASTRT_INLINE bool is_instance(const GeometryView& scene, std::int32_t id) {
+  return id >= scene.shapes.first_plane;
+}
+
+// Ray i of a batch, which is `ray`, against an instance.
+template <bool any, class Ray>
+FASTRT_INLINE void meet_instance_alone(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                                       std::int32_t id, int i, Ray& ray) {
+  hits.t[i] = ray.t;
+  hits.primitive[i] = ray.primitive;
+  meet_instance_alone<any>(scene, rays, hits, id, i);
+  shorten(ray, hits.t[i], hits.primitive[i]);
+}
+
+// One ray against the shapes of a leaf; the same in all lanes. It is ray i of a batch.
+template <bool any, class Ray>
+[[gnu::noinline]] static void meet_shapes(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                                          int i, Ray& ray, std::uint32_t leaf) noexcept {
   const V3<LeafF> origin = {LeafF(ray.origin.x), LeafF(ray.origin.y), LeafF(ray.origin.z)};
   const V3<LeafF> dir = {LeafF(ray.dir.x), LeafF(ray.dir.y), LeafF(ray.dir.z)};
   for_each_run(scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
     for (std::uint32_t bits = boxes_met(ray, run); bits != 0; bits &= bits - 1) {
       const std::int32_t id = run.primitive(__builtin_ctz(bits));
-      if (id < 0 || id == ray.exclude) continue;
+      if (is_instance(scene, id)) meet_instance_alone<any>(scene, rays, hits, id, i, ray);
+      if (id < 0 || id == ray.exclude || is_instance(scene, id)) continue;
       const ShapeLanes<LeafF> met = intersect_shape(scene.shapes, id, origin, dir, LeafF(ray.t_min));
       if ((to_bits(met.hit) & 1U) == 0) continue;
       const float t = met.t.get(0);

@@ -243,6 +243,25 @@ FASTRT_INLINE Rectangles<LeafF> project_boxes(const TileFrame& f, const BlockRun
   return project_extent(f, u - ru, u + ru, v - rv, v + rv, w - rw, w + rw);
 }
 
+// An instance against whole groups.
+template <bool any>
+FASTRT_INLINE void meet_instance(TileTraversal<any>& tile, std::int32_t id, std::uint32_t groups) {
+  InstanceVisit visit;
+  visit.shape = tile.rays.shape;
+  visit.unit = group_size / widest;
+  visit.count = 0;
+  for (std::uint32_t left = groups; left != 0; left &= left - 1) {
+    const int g = __builtin_ctz(left);
+    add_group(visit, g * group_size, tile.open[g]);
+  }
+  std::uint32_t changed[batch_groups] = {};
+  meet_instance<any>(tile.scene, tile.rays, tile.hits, id, visit, changed);
+  for (std::uint32_t left = groups; left != 0; left &= left - 1) {
+    const int g = __builtin_ctz(left);
+    if (changed[g] != 0) shorten_group(tile, g, changed[g]);
+  }
+}
+
 template <bool any>
 [[gnu::noinline]] static void meet_shapes(TileTraversal<any>& tile, std::uint32_t leaf,
                                           std::uint32_t groups) noexcept {
@@ -254,6 +273,10 @@ template <bool any>
       const int lane = __builtin_ctz(some);
       const std::int32_t id = run.primitive(lane);
       if (id < 0) continue;
+      if (is_instance(tile.scene, id)) {
+        meet_instance(tile, id, touched[lane]);
+        continue;
+      }
       for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
         const int g = __builtin_ctz(left);
         meet_group(tile, g, tile.open[g], id, [&](int ray) -> MetLanes {

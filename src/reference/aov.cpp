@@ -28,7 +28,7 @@ Vec3 shadow_of(const Scene& scene, const Sight& sight) {
 
 std::int32_t id_of(const Scene& scene, const Sight& sight, Aov aov) {
   const auto primitive = static_cast<std::uint32_t>(sight.hit.primitive);
-  if (aov == Aov::id) return static_cast<std::int32_t>(scene.object_of(primitive));
+  if (aov == Aov::id) return static_cast<std::int32_t>(scene.object_of(primitive, sight.hit.instance));
   if (aov == Aov::material) return static_cast<std::int32_t>(sight.surface.material);
   return sight.hit.primitive;
 }

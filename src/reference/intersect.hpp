@@ -159,11 +159,12 @@ inline Intersection intersect(const Ray& ray, const Scene& scene, std::uint32_t 
 }
 
 // Keeps the closer of two hits; at equal t the one with the smaller id, so that the order in which primitives
-// are met does not matter.
+// are met does not matter. What an instance shows comes after all that is there by itself.
 inline void keep_closest(Hit& best, const Intersection& found, std::uint32_t primitive) {
   if (!found.hit) return;
   const auto id = static_cast<std::int32_t>(primitive);
-  if (found.t < best.t || (found.t == best.t && best.found() && id < best.primitive))
+  const bool earlier = best.instance != no_instance || id < best.primitive;
+  if (found.t < best.t || (found.t == best.t && best.found() && earlier))
     best = {found.t, found.u, found.v, id};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fastrt/math.hpp>
+#include <fastrt/scene.hpp>
 #include <fastrt/tracer.hpp>
 
 #include <cstdint>
@@ -16,6 +17,7 @@ struct Ray {
   float t_min = 0;
   float t_max = infinity;
   std::int32_t excluded = no_primitive;
+  std::int32_t excluded_instance = no_instance; // the one in which the primitive is excluded
   // Of the ray's footprint, for textures: its width at the origin, and how much it widens per unit of length.
   float width = 0;
   float spread = 0;
@@ -28,6 +30,7 @@ struct Hit {
   float u = 0;
   float v = 0;
   std::int32_t primitive = no_primitive;
+  std::int32_t instance = no_instance; // the one that shows the primitive
   bool found() const noexcept { return primitive != no_primitive; }
 };
 

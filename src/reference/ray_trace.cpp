@@ -34,6 +34,7 @@ Node child_of(const Node& parent, const Surface& surface, const Vec3& weight, co
   child.ray.origin = surface.point + offset * surface.geometric_normal;
   child.ray.direction = direction;
   child.ray.excluded = surface.planar;
+  child.ray.excluded_instance = surface.instance;
   child.ray.width = surface.width;
   child.ray.spread = parent.ray.spread;
   child.weight = weight;

@@ -43,8 +43,9 @@ namespace {
 Ray shadow_ray(const Light& light, const Vec3& position, const Surface& surface, const Vec3& to_light) {
   Ray ray;
   ray.excluded = surface.planar;
+  ray.excluded_instance = surface.instance;
   if (light.kind != LightKind::directional) {
-    const float offset = offset_for(max(surface.magnitude, light_magnitude(light)));
+    const float offset = offset_for(max(surface.magnitude, light_magnitude(light) * surface.growth));
     const Vec3 end = surface.point + offset * surface.geometric_normal;
     ray.origin = position;
     ray.direction = end - position;
@@ -62,7 +63,7 @@ Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
   Vec3 left{1.0F};
   for (Hit hit = finder.closest(ray); hit.found(); hit = finder.closest(ray)) {
     const auto primitive = static_cast<std::uint32_t>(hit.primitive);
-    const Material& material = scene.materials()[scene.material_of(primitive)];
+    const Material& material = scene.materials()[scene.material_of(primitive, hit.instance)];
     if (!is_transmissive(material)) return Vec3(0.0F);
     left = left * transmittance(material, opacity_at(scene, ray, hit));
     if (left == Vec3(0.0F)) return left;

@@ -2,7 +2,7 @@
 #include "src/reference/surface.hpp"
 
 #include "src/reference/arithmetic.hpp"
-#include "src/reference/intersect.hpp"
+#include "src/reference/instances.hpp"
 #include "src/reference/textures.hpp"
 
 namespace fastrt::reference {
@@ -105,6 +105,19 @@ void fill_shape(Surface& surface, const Scene& scene, const Ray& ray, const Hit&
   }
 }
 
+// From object space to the world.
+void place_in_world(Surface& surface, const Scene& scene, const Hit& hit) {
+  const auto instance = static_cast<std::size_t>(hit.instance);
+  const Affine& map = scene.desc().instances.to_world[instance];
+  const InstanceShape& shape = scene.shapes().instances[instance];
+  surface.point = map_point(map, surface.point);
+  surface.geometric_normal = map_normal(shape.to_object, surface.geometric_normal);
+  surface.shading_normal = map_normal(shape.to_object, surface.shading_normal);
+  surface.magnitude = map_magnitude(map, surface.magnitude) * shape.growth;
+  surface.growth = shape.growth;
+  surface.instance = hit.instance;
+}
+
 } // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
@@ -115,13 +128,15 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
   surface.distance = hit.t * length;
 
   const auto primitive = static_cast<std::uint32_t>(hit.primitive);
-  surface.material = scene.material_of(primitive);
+  surface.material = scene.material_of(primitive, hit.instance);
+  const Ray inner = object_ray(scene, ray, hit);
   if (scene.kind(primitive) == PrimitiveKind::triangle)
     fill_triangle(surface, scene, primitive, hit);
   else if (scene.kind(primitive) == PrimitiveKind::sphere)
-    fill_sphere(surface, sphere_shape(scene, primitive - scene.triangle_count()), ray, hit.t);
+    fill_sphere(surface, sphere_shape(scene, primitive - scene.triangle_count()), inner, hit.t);
   else
-    fill_shape(surface, scene, ray, hit);
+    fill_shape(surface, scene, inner, hit);
+  if (hit.instance != no_instance) place_in_world(surface, scene, hit);
 
   if (glm::dot(surface.geometric_normal, ray.direction) > 0.0F)
     surface.geometric_normal = -surface.geometric_normal;

@@ -19,13 +19,15 @@ struct Finish {
 // What shading needs to know of the place where a ray met a surface.
 struct Surface {
   Vec3 point{0.0F};
-  Vec3 geometric_normal{0.0F};        // unit, on the viewer's side
-  Vec3 shading_normal{0.0F};          // unit, interpolated where the mesh has normals
-  Vec3 incident{0.0F};                // the ray's direction, unit
-  Vec3 to_viewer{0.0F};               // -incident
-  float distance = 0;                 // from the ray's origin, in units of length
-  float magnitude = 0;                // the largest number that the point was computed from
-  std::int32_t planar = no_primitive; // the primitive if it is flat: rays that leave it exclude it
+  Vec3 geometric_normal{0.0F};         // unit, on the viewer's side
+  Vec3 shading_normal{0.0F};           // unit, interpolated where the mesh has normals
+  Vec3 incident{0.0F};                 // the ray's direction, unit
+  Vec3 to_viewer{0.0F};                // -incident
+  float distance = 0;                  // from the ray's origin, in units of length
+  float magnitude = 0;                 // the largest number that the point was computed from
+  float growth = 1;                    // of the instance's map: by how much it blows up rounding errors
+  std::int32_t planar = no_primitive;  // the primitive if it is flat: rays that leave it exclude it
+  std::int32_t instance = no_instance; // that shows the primitive
   std::uint32_t material = 0;
   float width = 0;              // of the ray's footprint here
   std::optional<Finish> finish; // where the material has textures

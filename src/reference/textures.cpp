@@ -3,7 +3,7 @@
 #include "src/reference/textures.hpp"
 
 #include "src/reference/arithmetic.hpp"
-#include "src/reference/intersect.hpp"
+#include "src/reference/instances.hpp"
 #include "src/scene/texture_numbers.hpp"
 #include "src/simd/shared_math.hpp"
 
@@ -41,8 +41,13 @@ void place_on_triangle(Site& site, const Scene& scene, std::uint32_t triangle, c
   site.uv = (site.weights.x * a + site.weights.y * b) + site.weights.z * c;
 
   const auto [va, vb, vc] = triangle_vertices(scene, triangle);
-  const Vec3 edge1 = vb - va;
-  const Vec3 edge2 = vc - va;
+  Vec3 edge1 = vb - va;
+  Vec3 edge2 = vc - va;
+  if (hit.instance != no_instance) {
+    const Affine& map = scene.desc().instances.to_world[static_cast<std::size_t>(hit.instance)];
+    edge1 = map_vector(map, edge1);
+    edge2 = map_vector(map, edge2);
+  }
   const Vec2 step1 = b - a;
   const Vec2 step2 = c - a;
   const float uv_area = area(step1, step2);
@@ -232,7 +237,8 @@ void apply_textures(const Scene& scene, const Hit& hit, Surface& surface) {
 }
 
 float opacity_at(const Scene& scene, const Ray& ray, const Hit& hit) {
-  const Material& material = scene.materials()[scene.material_of(static_cast<std::uint32_t>(hit.primitive))];
+  const Material& material =
+      scene.materials()[scene.material_of(static_cast<std::uint32_t>(hit.primitive), hit.instance)];
   if (material.opacity_texture == no_texture) return material.opacity;
   return opacity_of(scene, material, site_of(scene, hit, ray.origin + hit.t * ray.direction), 0.0F);
 }

@@ -13,19 +13,29 @@ namespace {
 // Below this many primitives, starting threads takes longer.
 constexpr std::ptrdiff_t parallel_from = 1 << 15;
 
+std::size_t length_of(const Columns3& columns) {
+  return std::min({columns.x.size(), columns.y.size(), columns.z.size()});
+}
+
+// The rows of a range that are among the first `count`.
+RowRange among(const RowRange& rows, std::size_t count) {
+  const auto most = static_cast<std::uint32_t>(count);
+  return {std::min(rows.begin, most), std::min(rows.end, most)};
+}
+
 // Vertices that no triangle uses don't count, nor do indices that point nowhere: the scene is not checked
 // yet.
-Aabb triangle_bounds(const SceneDesc& desc) {
-  const std::size_t vertices =
-      std::min({desc.positions.x.size(), desc.positions.y.size(), desc.positions.z.size()});
+Aabb triangle_bounds(const SceneDesc& desc, const RowRange& range) {
+  const std::size_t vertices = length_of(desc.positions);
   const TriangleColumns& t = desc.triangles;
-  const auto count = static_cast<std::ptrdiff_t>(std::min({t.v0.size(), t.v1.size(), t.v2.size()}));
+  const RowRange rows = among(range, std::min({t.v0.size(), t.v1.size(), t.v2.size()}));
+  const std::ptrdiff_t begin = rows.begin, end = rows.end;
   Aabb bounds;
-#pragma omp parallel num_threads(thread_count(0)) if (count >= parallel_from)
+#pragma omp parallel num_threads(thread_count(0)) if (end - begin >= parallel_from)
   {
     Aabb part;
 #pragma omp for schedule(static) nowait
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
       for (const std::uint32_t v : {t.v0[k], t.v1[k], t.v2[k]})
         if (v < vertices) part.extend(desc.positions[v]);
@@ -36,16 +46,16 @@ Aabb triangle_bounds(const SceneDesc& desc) {
   return bounds;
 }
 
-Aabb sphere_bounds(const SceneDesc& desc) {
+Aabb sphere_bounds(const SceneDesc& desc, const RowRange& range) {
   const SphereColumns& s = desc.spheres;
-  const auto count =
-      static_cast<std::ptrdiff_t>(std::min({s.x.size(), s.y.size(), s.z.size(), s.radius.size()}));
+  const RowRange rows = among(range, std::min({s.x.size(), s.y.size(), s.z.size(), s.radius.size()}));
+  const std::ptrdiff_t begin = rows.begin, end = rows.end;
   Aabb bounds;
-#pragma omp parallel num_threads(thread_count(0)) if (count >= parallel_from)
+#pragma omp parallel num_threads(thread_count(0)) if (end - begin >= parallel_from)
   {
     Aabb part;
 #pragma omp for schedule(static) nowait
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Vec3 center{s.x[k], s.y[k], s.z[k]};
       part.extend(center - s.radius[k]);
@@ -57,31 +67,74 @@ Aabb sphere_bounds(const SceneDesc& desc) {
   return bounds;
 }
 
-// Planes have no bounds.
-Aabb shape_bounds(const SceneDesc& desc) {
-  Aabb bounds;
+Aabb cone_bounds(const SceneDesc& desc, const RowRange& range) {
   const ConeColumns& c = desc.cones;
-  const std::size_t cones =
-      std::min({c.base.x.size(), c.base.y.size(), c.base.z.size(), c.apex.x.size(), c.apex.y.size(),
-                c.apex.z.size(), c.base_radius.size(), c.apex_radius.size()});
-  for (std::size_t i = 0; i < cones; ++i) bounds.extend(cone_box(c, i));
+  const RowRange rows = among(
+      range, std::min({length_of(c.base), length_of(c.apex), c.base_radius.size(), c.apex_radius.size()}));
+  Aabb bounds;
+  for (std::size_t i = rows.begin; i < rows.end; ++i) bounds.extend(cone_box(c, i));
+  return bounds;
+}
+
+Aabb disk_bounds(const SceneDesc& desc, const RowRange& range) {
   const DiskColumns& d = desc.disks;
-  const std::size_t disks =
-      std::min({d.center.x.size(), d.center.y.size(), d.center.z.size(), d.normal.x.size(), d.normal.y.size(),
-                d.normal.z.size(), d.radius.size()});
-  for (std::size_t i = 0; i < disks; ++i) bounds.extend(disk_box(d, i));
-  for (const std::uint32_t v : desc.polygons.vertex)
-    if (v < std::min({desc.positions.x.size(), desc.positions.y.size(), desc.positions.z.size()}))
-      bounds.extend(desc.positions[v]);
+  const RowRange rows = among(range, std::min({length_of(d.center), length_of(d.normal), d.radius.size()}));
+  Aabb bounds;
+  for (std::size_t i = rows.begin; i < rows.end; ++i) bounds.extend(disk_box(d, i));
+  return bounds;
+}
+
+Aabb polygon_bounds(const SceneDesc& desc, const RowRange& range) {
+  const PolygonColumns& p = desc.polygons;
+  const std::size_t vertices = length_of(desc.positions);
+  const auto end_of = [](const Column<std::uint32_t>& ends, std::size_t row) {
+    return row == 0 ? 0U : ends[row - 1];
+  };
+  const RowRange rows = among(range, p.contour_end.size());
+  Aabb bounds;
+  if (rows.begin == rows.end) return bounds;
+  const RowRange contours =
+      among({end_of(p.contour_end, rows.begin), end_of(p.contour_end, rows.end)}, p.vertex_end.size());
+  const RowRange corners =
+      among({end_of(p.vertex_end, contours.begin), end_of(p.vertex_end, contours.end)}, p.vertex.size());
+  for (std::size_t i = corners.begin; i < corners.end; ++i)
+    if (p.vertex[i] < vertices) bounds.extend(desc.positions[p.vertex[i]]);
+  return bounds;
+}
+
+Aabb bounds_of_rows(const SceneDesc& desc, std::size_t kind, const RowRange& rows) {
+  constexpr Aabb (*of_kind[])(const SceneDesc&, const RowRange&) = {triangle_bounds, sphere_bounds,
+                                                                    cone_bounds, disk_bounds, polygon_bounds};
+  return of_kind[kind](desc, rows);
+}
+
+Aabb instance_bounds(const SceneDesc& desc) {
+  std::vector<Aabb> prototypes;
+  prototypes.reserve(desc.prototypes.size());
+  for (const Prototype& prototype : desc.prototypes) prototypes.push_back(bounds_of(desc, prototype));
+  const InstanceColumns& instances = desc.instances;
+  const std::size_t count = std::min(instances.prototype.size(), instances.to_world.size());
+  Aabb bounds;
+  for (std::size_t i = 0; i < count; ++i)
+    if (instances.prototype[i] < prototypes.size())
+      bounds.extend(image_of(instances.to_world[i], prototypes[instances.prototype[i]]));
   return bounds;
 }
 
 } // namespace
 
+Aabb bounds_of(const SceneDesc& desc, const Prototype& prototype) {
+  Aabb bounds;
+  for (std::size_t kind = 0; kind < prototype.begin.size(); ++kind)
+    bounds.extend(bounds_of_rows(desc, kind, {prototype.begin[kind], prototype.end[kind]}));
+  return bounds;
+}
+
 Aabb bounds_of(const SceneDesc& desc) {
-  Aabb bounds = triangle_bounds(desc);
-  bounds.extend(sphere_bounds(desc));
-  bounds.extend(shape_bounds(desc));
+  Aabb bounds = instance_bounds(desc);
+  const KindRanges world = world_rows(desc);
+  for (std::size_t kind = 0; kind < world.size(); ++kind)
+    for (const RowRange& rows : world[kind]) bounds.extend(bounds_of_rows(desc, kind, rows));
   // Threads finish in any order, and -0 equals 0: adding 0 leaves only one of them.
   bounds.lower += 0.0F;
   bounds.upper += 0.0F;

@@ -78,12 +78,20 @@ Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
   bounds_ = bounds_of(desc_);
 }
 
-std::uint32_t Scene::material_of(std::uint32_t primitive) const noexcept {
+std::uint32_t Scene::material_of(std::uint32_t primitive, std::int32_t instance) const noexcept {
+  if (instance != no_instance) {
+    const std::uint32_t own = desc_.instances.material[static_cast<std::size_t>(instance)];
+    if (own != no_index) return own;
+  }
   return row_of(
       *this, primitive, [](const auto& columns) -> const auto& { return columns.material; });
 }
 
-std::uint32_t Scene::object_of(std::uint32_t primitive) const noexcept {
+std::uint32_t Scene::object_of(std::uint32_t primitive, std::int32_t instance) const noexcept {
+  if (instance != no_instance) {
+    const std::uint32_t own = desc_.instances.object[static_cast<std::size_t>(instance)];
+    if (own != no_index) return own;
+  }
   return row_of(
       *this, primitive, [](const auto& columns) -> const auto& { return columns.object; });
 }
@@ -105,13 +113,16 @@ std::size_t Scene::bytes() const noexcept {
   const DiskColumns& d = desc_.disks;
   const PolygonColumns& g = desc_.polygons;
   const PlaneColumns& p = desc_.planes;
+  const InstanceColumns& i = desc_.instances;
   return images + bytes_of(desc_.colors) + bytes_of(desc_.positions) + bytes_of(desc_.normals) +
          bytes_of(desc_.uvs.x, desc_.uvs.y) + bytes_of(v0, v1, v2, n0, n1, n2, t0, t1, t2, material, object) +
          bytes_of(s.x, s.y, s.z, s.radius, s.material, s.object) + bytes_of(c.base) + bytes_of(c.apex) +
          bytes_of(c.base_radius, c.apex_radius, c.capped, c.material, c.object) + bytes_of(d.center) +
          bytes_of(d.normal) + bytes_of(d.radius, d.material, d.object) +
          bytes_of(g.vertex, g.vertex_end, g.contour_end, g.material, g.object) + bytes_of(p.point) +
-         bytes_of(p.normal) + bytes_of(p.material, p.object) + shapes_->bytes();
+         bytes_of(p.normal) + bytes_of(p.material, p.object) +
+         bytes_of(i.prototype, i.to_world, i.material, i.object) +
+         desc_.prototypes.capacity() * sizeof(Prototype) + shapes_->bytes();
 }
 
 } // namespace fastrt

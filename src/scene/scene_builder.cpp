@@ -47,6 +47,12 @@ void append_optional(const IndexColumns& columns, std::size_t triangle_count, bo
     columns[i % 3]->push_back(present ? first + indices[i] : no_index);
 }
 
+std::array<std::uint32_t, 5> row_counts(const SceneDesc& desc) {
+  return {checked_id(desc.triangles.size(), "triangles"), checked_id(desc.spheres.size(), "spheres"),
+          checked_id(desc.cones.size(), "cones"), checked_id(desc.disks.size(), "disks"),
+          checked_id(desc.polygons.size(), "polygons")};
+}
+
 } // namespace
 
 std::uint32_t SceneBuilder::add_material(Material material) {
@@ -169,6 +175,7 @@ std::uint32_t SceneBuilder::add_polygon(std::span<const std::vector<Vec3>> conto
 
 std::uint32_t SceneBuilder::add_plane(const Vec3& point, const Vec3& normal, std::uint32_t material,
                                       std::string name) {
+  if (open_) throw InputError("a plane has no end: it can't be part of a prototype");
   const std::uint32_t object = add_object(std::move(name));
   PlaneColumns& planes = desc_.planes;
   planes.point.push_back(point);
@@ -178,6 +185,35 @@ std::uint32_t SceneBuilder::add_plane(const Vec3& point, const Vec3& normal, std
   return object;
 }
 
-Scene SceneBuilder::build() { return Scene(std::exchange(desc_, SceneDesc{})); }
+void SceneBuilder::begin_prototype() {
+  if (open_) throw InputError("a prototype can't be part of another one");
+  open_ = Prototype{row_counts(desc_), {}};
+}
+
+std::uint32_t SceneBuilder::end_prototype() {
+  if (!open_) throw InputError("a prototype ends that has not begun");
+  const std::uint32_t id = checked_id(desc_.prototypes.size(), "prototypes");
+  open_->end = row_counts(desc_);
+  desc_.prototypes.push_back(*open_);
+  open_.reset();
+  return id;
+}
+
+std::uint32_t SceneBuilder::add_instance(std::uint32_t prototype, const Affine& to_world,
+                                         std::uint32_t material, std::string name) {
+  if (open_) throw InputError("an instance can't be part of a prototype");
+  const std::uint32_t object = add_object(std::move(name));
+  InstanceColumns& instances = desc_.instances;
+  instances.prototype.push_back(prototype);
+  instances.to_world.push_back(to_world);
+  instances.material.push_back(material);
+  instances.object.push_back(object);
+  return object;
+}
+
+Scene SceneBuilder::build() {
+  if (open_) throw InputError("a prototype has not ended");
+  return Scene(std::exchange(desc_, SceneDesc{}));
+}
 
 } // namespace fastrt

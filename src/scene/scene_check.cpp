@@ -126,8 +126,9 @@ void check_spheres(const SceneDesc& desc) {
 void check_scene(const SceneDesc& desc) {
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
   std::size_t left = most;
-  for (const std::size_t count : {desc.triangles.size(), desc.spheres.size(), desc.cones.size(),
-                                  desc.disks.size(), desc.polygons.size(), desc.planes.size()}) {
+  for (const std::size_t count :
+       {desc.triangles.size(), desc.spheres.size(), desc.cones.size(), desc.disks.size(),
+        desc.polygons.size(), desc.planes.size(), desc.instances.size()}) {
     if (count > left) throw LimitError("the scene has more than " + std::to_string(most) + " primitives");
     left -= count;
   }
@@ -144,6 +145,7 @@ void check_scene(const SceneDesc& desc) {
   check_triangles(desc);
   check_spheres(desc);
   check_shapes(desc);
+  check_instances(desc);
   check_textures(desc);
   check_materials(desc);
   check_lights(desc);

@@ -13,6 +13,8 @@ void check_scene(const SceneDesc& desc);
 
 // The parts of it. Shapes: cones, disks, polygons and planes; positions must have been checked.
 void check_shapes(const SceneDesc& desc);
+// Prototypes and instances.
+void check_instances(const SceneDesc& desc);
 void check_textures(const SceneDesc& desc);
 void check_materials(const SceneDesc& desc);
 void check_lights(const SceneDesc& desc);

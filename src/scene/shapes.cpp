@@ -136,7 +136,7 @@ PolygonShape make_polygon(const SceneDesc& desc, std::size_t row, std::vector<Po
 std::size_t SceneShapes::bytes() const noexcept {
   return cones.capacity() * sizeof(ConeShape) + disks.capacity() * sizeof(DiskShape) +
          polygons.capacity() * sizeof(PolygonShape) + edges.capacity() * sizeof(PolygonEdge) +
-         planes.capacity() * sizeof(PlaneShape);
+         planes.capacity() * sizeof(PlaneShape) + instances.capacity() * sizeof(InstanceShape);
 }
 
 Aabb cone_box(const ConeColumns& cones, std::size_t row) {
@@ -202,6 +202,8 @@ SceneShapes make_shapes(const SceneDesc& desc) {
   for (std::size_t i = 0; i < desc.polygons.size(); ++i)
     shapes.polygons.push_back(make_polygon(desc, i, shapes.edges));
   for (std::size_t i = 0; i < desc.planes.size(); ++i) shapes.planes.push_back(make_plane(desc.planes, i));
+  shapes.instances = make_instances(desc);
+  shapes.world = world_rows(desc);
   return shapes;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fastrt/scene.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -46,17 +47,47 @@ struct PlaneShape {
   Vec3 point, normal, side;
 };
 
+// An instance: the inverse of its map, the box in world space around what it shows (empty if that is
+// nothing), and by how much the map and its inverse may blow up a rounding error.
+struct InstanceShape {
+  Affine to_object;
+  Aabb box;
+  float growth;
+};
+
+// Rows begin .. end - 1 of a kind's columns.
+struct RowRange {
+  std::uint32_t begin, end;
+};
+using KindRanges = std::array<std::vector<RowRange>, 5>; // of all kinds but planes
+
 struct SceneShapes {
   std::vector<ConeShape> cones;
   std::vector<DiskShape> disks;
   std::vector<PolygonShape> polygons;
   std::vector<PolygonEdge> edges;
   std::vector<PlaneShape> planes;
+  std::vector<InstanceShape> instances;
+  KindRanges world; // the rows that are in no prototype
   std::size_t bytes() const noexcept;
 };
 
 // Of a scene that has been checked.
 SceneShapes make_shapes(const SceneDesc& desc);
+
+// The rows that are in no prototype, in order. The scene need not have been checked.
+KindRanges world_rows(const SceneDesc& desc);
+
+// The inverse of a map and its growth (InstanceShape); false if it has none that floats can hold.
+bool invert(const Affine& map, Affine& inverse, float& growth);
+// The box around a map's image of a box, with a margin for rounding.
+Aabb image_of(const Affine& map, const Aabb& box);
+// Of a scene that has been checked.
+std::vector<InstanceShape> make_instances(const SceneDesc& desc);
+
+// The box around a prototype in its own space; of the primitives, not their margins. The scene need not have
+// been checked.
+Aabb bounds_of(const SceneDesc& desc, const Prototype& prototype);
 
 // Boxes with a margin for the rounding of a shape's numbers; of rows that are finite.
 Aabb cone_box(const ConeColumns& cones, std::size_t row);

@@ -44,10 +44,10 @@ FASTRT_INLINE void record_hit(const TileJob& job, const PathBatch& rays, const T
   const ShadingView& scene = job.scene->shading;
   const AovTargets& to = job.aovs;
   const SurfaceBatch& s = scratch.surface;
-  const std::int32_t id = scratch.hits.primitive[i];
+  const std::int32_t id = shown_primitive(scene.shapes, scratch.hits, i);
   const auto primitive = static_cast<std::uint32_t>(id);
   if (to.primitive != nullptr) to.primitive[at] = id;
-  if (to.object != nullptr) to.object[at] = static_cast<std::int32_t>(object_index(scene, id));
+  if (to.object != nullptr) to.object[at] = static_cast<std::int32_t>(object_of_hit(scene, scratch.hits, i));
   if (to.material != nullptr) to.material[at] = s.material[i];
   if (to.depth != nullptr) {
     const float length2 =

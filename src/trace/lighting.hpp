@@ -133,9 +133,10 @@ FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch
   return to_bits((dot(load_geometric(s, i), to_light) > zero) & (cosine > zero)) & bits;
 }
 
-// The shadow rays of lanes i .., row for row; those not in `bits` can't hit anything.
+// The shadow rays of lanes i .., row for row; those not in `bits` can't hit anything. instances: whether the
+// scene has any.
 FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s, const LightBatch& seen,
-                                    std::uint32_t bits, int i, RayBatch& rays) {
+                                    std::uint32_t bits, bool instances, int i, RayBatch& rays) {
   const PathV normal = load_geometric(s, i);
   const PathF magnitude = PathF::load_aligned(s.magnitude + i);
   PathF reach(1.0F);
@@ -146,7 +147,9 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
     reach = PathF(__builtin_inff());
   } else {
     const PathV position = load_position(light, seen, i);
-    const PathF offset = max(magnitude, PathF(light.largest_coordinate)) * PathF(offset_share);
+    PathF reached(light.largest_coordinate);
+    if (instances) reached = reached * PathF::load_aligned(s.growth + i);
+    const PathF offset = max(magnitude, reached) * PathF(offset_share);
     store3(position, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     store3((load_point(s, i) + normal * offset) - position, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
   }
@@ -154,6 +157,7 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
   none.store_aligned(rays.t_min + i);
   simd::select(from_bits<widest>(bits), reach, none).store_aligned(rays.t_max + i);
   load<PathI>(s.planar + i).store_aligned(rays.exclude + i);
+  if (instances) load<PathI>(s.planar_inner + i).store_aligned(rays.exclude_inner + i);
 }
 
 FASTRT_INLINE void store_visibility(const PathV& visible, int i, LightBatch& light) {
@@ -171,15 +175,11 @@ FASTRT_INLINE void trace_opaque_shadows(const GeometryView& scene, const RayBatc
   }
 }
 
-FASTRT_INLINE const MaterialRow& material_of(const ShadingView& scene, std::int32_t primitive) {
-  return scene.materials[material_index(scene, primitive)];
-}
-
 // One surface on the way of shadow ray i: takes what it holds back. Returns whether the ray goes on behind
 // it.
 FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
                                 LightBatch& light) {
-  const MaterialRow& row = material_of(scene, hits.primitive[i]);
+  const MaterialRow& row = scene.materials[material_of_hit(scene, hits, i)];
   if (row.has_transmit == 0) {
     light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
     return false;
@@ -285,7 +285,7 @@ static std::uint64_t gather_one_light(const TileJob& job, const PathBatch& rays,
     std::uint32_t& bits = lit[i / widest];
     bits = s.shaded[i / widest];
     if (bits != 0) bits = face_light(light, s, bits, share, i, seen);
-    make_shadow_rays(light, s, seen, bits, i, scratch.shadow);
+    make_shadow_rays(light, s, seen, bits, scene.shading.shapes.instance_count != 0, i, scratch.shadow);
     lit_count += __builtin_popcount(bits);
   }
   if (lit_count == 0) return 0;

@@ -57,11 +57,26 @@ reference::Ray ray_of(const RayArrays& rays, std::size_t i) {
   return ray;
 }
 
+// The primitives of `count` hits to where the caller wants them, and the instances that show them.
+void put_primitives(const ShapeView& shapes, const HitBatch& found, std::size_t first, int count,
+                    const HitArrays& hits) {
+  std::copy_n(found.primitive, count, hits.primitive + first);
+  if (hits.instance != nullptr) std::fill_n(hits.instance + first, count, no_instance);
+  if (shapes.instance_count == 0) return;
+  for (int i = 0; i < count; ++i) {
+    if (found.primitive[i] < shapes.first_instance) continue;
+    const std::size_t at = first + static_cast<std::size_t>(i);
+    hits.primitive[at] = found.inner[i];
+    if (hits.instance != nullptr) hits.instance[at] = found.primitive[i] - shapes.first_instance;
+  }
+}
+
 void closest_hit_scalar(const ScalarBvh& bvh, const RayArrays& rays, const HitArrays& hits) {
   for (std::size_t i = 0; i < rays.count; ++i) {
     const reference::Hit hit = bvh.closest(ray_of(rays, i));
     hits.t[i] = hit.t;
     hits.primitive[i] = hit.primitive;
+    if (hits.instance != nullptr) hits.instance[i] = hit.instance;
     if (hits.u != nullptr) hits.u[i] = hit.u;
     if (hits.v != nullptr) hits.v[i] = hit.v;
   }
@@ -80,7 +95,7 @@ void Tracer::closest_hit(const RayArrays& rays, const HitArrays& hits, Coherence
     load_batch(rays, first, coherence, batch);
     parts.kernels->closest_hits(parts.view.geometry, batch, found);
     std::copy_n(found.t, batch.count, hits.t + first);
-    std::copy_n(found.primitive, batch.count, hits.primitive + first);
+    put_primitives(parts.view.geometry.shapes, found, first, batch.count, hits);
     if (hits.u == nullptr && hits.v == nullptr) continue;
     parts.kernels->hit_weights(parts.view.shading, batch, found, u, v);
     if (hits.u != nullptr) std::copy_n(u, batch.count, hits.u + first);

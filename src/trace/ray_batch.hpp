@@ -20,19 +20,24 @@ enum class BatchShape : std::uint32_t {
 };
 
 // Rays 0 .. count - 1 are live. A ray hits what lies in t_min < t < t_max and is not the primitive `exclude`.
+// Where that is an instance, the ray does not hit the primitive `exclude_inner` in it; elsewhere
+// `exclude_inner` means nothing.
 struct alignas(64) RayBatch {
   float origin_x[batch_size], origin_y[batch_size], origin_z[batch_size];
   float dir_x[batch_size], dir_y[batch_size], dir_z[batch_size];
   float t_min[batch_size], t_max[batch_size];
   std::int32_t exclude[batch_size]; // -1: none
+  std::int32_t exclude_inner[batch_size];
   int count;
   BatchShape shape;
 };
 
-// Closest hits of a batch: t = t_max and primitive = -1 on a miss.
+// Closest hits of a batch: t = t_max and primitive = -1 on a miss. Where the primitive is an instance,
+// `inner` is what it shows; elsewhere that means nothing.
 struct alignas(64) HitBatch {
   float t[batch_size];
   std::int32_t primitive[batch_size];
+  std::int32_t inner[batch_size];
 };
 
 } // namespace fastrt

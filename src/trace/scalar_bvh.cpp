@@ -2,8 +2,8 @@
 #include "src/trace/scalar_bvh.hpp"
 
 #include "src/reference/arithmetic.hpp"
-#include "src/reference/intersect.hpp"
-#include "src/trace/scene_view.hpp"
+#include "src/reference/instances.hpp"
+#include "src/trace/primitive_boxes.hpp"
 
 #include <array>
 #include <utility>
@@ -13,13 +13,6 @@ namespace {
 
 using reference::Hit;
 using reference::Ray;
-
-PrimitiveBox box_of(const Aabb& bounds, std::uint32_t id, std::uint32_t group) {
-  return {{bounds.lower.x, bounds.lower.y, bounds.lower.z},
-          id,
-          {bounds.upper.x, bounds.upper.y, bounds.upper.z},
-          group};
-}
 
 // A ray as the boxes see it. Every plane is met a little early or late: by a margin for the rounding of the
 // coordinates, which grows with the largest number in play, and by Ize's factor for that of the distances
@@ -71,77 +64,60 @@ struct Pending {
 
 } // namespace
 
-Column<PrimitiveBox> primitive_boxes(const Scene& scene) {
-  Column<PrimitiveBox> boxes(scene.first_of(PrimitiveKind::plane));
-  for (std::uint32_t id = 0; id < scene.triangle_count(); ++id) {
-    const auto [a, b, c] = reference::triangle_vertices(scene, id);
-    Aabb bounds;
-    bounds.extend(a);
-    bounds.extend(b);
-    bounds.extend(c);
-    boxes[id] = box_of(bounds, id, triangle_group);
-  }
-  for (std::uint32_t i = 0; i < scene.sphere_count(); ++i) {
-    const auto [center, radius] = reference::sphere_shape(scene, i);
-    // Two ulps more than the radius, so that no rounding leaves the rim outside.
-    const Vec3 reach{radius + 0x1p-22F * (radius + reference::largest_magnitude(center))};
-    const std::uint32_t id = scene.triangle_count() + i;
-    boxes[id] = box_of({center - reach, center + reach}, id, sphere_group);
-  }
-  std::uint32_t id = scene.first_of(PrimitiveKind::cone);
-  const auto add_boxes = [&](const auto& shapes) {
-    for (const auto& shape : shapes) {
-      boxes[id] = box_of(shape.box, id, shape_group);
-      ++id;
-    }
-  };
-  add_boxes(scene.shapes().cones);
-  add_boxes(scene.shapes().disks);
-  add_boxes(scene.shapes().polygons);
-  return boxes;
+ScalarBvh::Tree ScalarBvh::make_tree(Column<PrimitiveBox> boxes, int threads) {
+  Tree tree{build_binary_tree(boxes, {threads}), 0};
+  if (tree.binary.nodes.empty()) return tree;
+  const BinaryNode& root = tree.binary.nodes[0];
+  for (int axis = 0; axis < 3; ++axis)
+    tree.largest_coordinate = reference::max(
+        std::fabs(root.lower[axis]), reference::max(std::fabs(root.upper[axis]), tree.largest_coordinate));
+  return tree;
 }
 
-ScalarBvh::ScalarBvh(const Scene& scene, int threads) : scene_(&scene) {
-  Column<PrimitiveBox> boxes = primitive_boxes(scene);
-  tree_ = build_binary_tree(boxes, {threads});
-  if (!tree_.nodes.empty()) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const BinaryNode& root = tree_.nodes[0];
-      largest_coordinate_ = reference::max(std::fabs(root.lower[axis]),
-                                           reference::max(std::fabs(root.upper[axis]), largest_coordinate_));
-    }
-  }
+ScalarBvh::ScalarBvh(const Scene& scene, int threads)
+    : scene_(&scene), world_(make_tree(world_boxes(scene), threads)) {
+  for (const Prototype& prototype : scene.desc().prototypes)
+    prototypes_.push_back(make_tree(prototype_boxes(scene, prototype), threads));
 }
 
 template <bool any_will_do>
-bool ScalarBvh::test_leaf(const BinaryNode& leaf, const Ray& ray, Hit& best) const {
-  for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-    const std::uint32_t id = tree_.order[i];
-    if (static_cast<std::int32_t>(id) == ray.excluded) continue;
-    reference::keep_closest(best, reference::intersect(ray, *scene_, id), id);
-    if (any_will_do && best.found()) return true;
+void ScalarBvh::meet(std::uint32_t id, const Ray& ray, Hit& best) const {
+  if (id >= scene_->primitive_count()) {
+    const std::uint32_t instance = id - scene_->primitive_count();
+    const Tree& tree = prototypes_[scene_->desc().instances.prototype[instance]];
+    reference::meet_instance(*scene_, ray, instance, best, [&](const Ray& inner) {
+      Hit hit{inner.t_max, 0, 0, no_primitive};
+      traverse<any_will_do>(tree, inner, hit);
+      return hit;
+    });
+    return;
   }
-  return false;
+  if (static_cast<std::int32_t>(id) == ray.excluded && ray.excluded_instance == no_instance) return;
+  reference::keep_closest(best, reference::intersect(ray, *scene_, id), id);
 }
 
 template <bool any_will_do>
-void ScalarBvh::traverse(const Ray& ray, Hit& best) const {
-  if (tree_.nodes.empty()) return;
-  const SlabRay slabs(ray, largest_coordinate_);
+void ScalarBvh::traverse(const Tree& tree, const Ray& ray, Hit& best) const {
+  const Column<BinaryNode>& nodes = tree.binary.nodes;
+  if (nodes.empty()) return;
+  const SlabRay slabs(ray, tree.largest_coordinate);
   std::array<Pending, max_tree_depth + 2> stack;
   std::size_t pending = 0;
-  stack[pending++] = {0, slabs.entry(tree_.nodes[0], best.t)};
+  stack[pending++] = {0, slabs.entry(nodes[0], best.t)};
   while (pending != 0) {
     Pending next = stack[--pending];
     // Not at >=: a primitive at the same t may have a smaller id.
     while (!(next.entry > best.t)) {
-      const BinaryNode& node = tree_.nodes[next.node];
+      const BinaryNode& node = nodes[next.node];
       if (node.count != 0) {
-        if (test_leaf<any_will_do>(node, ray, best)) return;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+          meet<any_will_do>(tree.binary.order[i], ray, best);
+          if (any_will_do && best.found()) return;
+        }
         break;
       }
-      Pending farther{node.first, slabs.entry(tree_.nodes[node.first], best.t)};
-      next = {node.first + 1, slabs.entry(tree_.nodes[node.first + 1], best.t)};
+      Pending farther{node.first, slabs.entry(nodes[node.first], best.t)};
+      next = {node.first + 1, slabs.entry(nodes[node.first + 1], best.t)};
       if (farther.entry < next.entry) std::swap(next, farther);
       if (farther.entry < infinity) stack[pending++] = farther;
       if (!(next.entry < infinity)) break;
@@ -153,11 +129,10 @@ void ScalarBvh::traverse(const Ray& ray, Hit& best) const {
 template <bool any_will_do>
 Hit ScalarBvh::trace(const Ray& ray) const {
   Hit best{ray.t_max, 0, 0, no_primitive};
-  traverse<any_will_do>(ray, best);
+  traverse<any_will_do>(world_, ray, best);
   for (std::uint32_t id = scene_->first_of(PrimitiveKind::plane); id < scene_->primitive_count(); ++id) {
     if (any_will_do && best.found()) break;
-    if (static_cast<std::int32_t>(id) == ray.excluded) continue;
-    reference::keep_closest(best, reference::intersect(ray, *scene_, id), id);
+    meet<any_will_do>(id, ray, best);
   }
   return best;
 }

@@ -6,10 +6,13 @@
 
 #include <fastrt/scene.hpp>
 
+#include <vector>
+
 namespace fastrt {
 
-// The reference's primitive tests over a binary tree, one ray at a time: the same hits as its brute force,
-// bit for bit, in less time. Serves `--isa scalar`. The scene must outlive it.
+// The reference's primitive tests over a binary tree, and over one more for each prototype, one ray at a
+// time: the same hits as its brute force, bit for bit, in less time. Serves `--isa scalar`. The scene must
+// outlive it.
 class ScalarBvh final : public reference::HitFinder {
 public:
   // threads: for the build; 0 takes every core.
@@ -18,23 +21,26 @@ public:
   reference::Hit closest(const reference::Ray& ray) const override;
   bool any(const reference::Ray& ray) const override;
 
-  const BinaryTree& tree() const noexcept { return tree_; }
+  const BinaryTree& tree() const noexcept { return world_.binary; } // not a prototype's
 
 private:
+  struct Tree {
+    BinaryTree binary;
+    float largest_coordinate; // of its bounds, as a magnitude
+  };
+  static Tree make_tree(Column<PrimitiveBox> boxes, int threads);
+
   template <bool any_will_do>
   reference::Hit trace(const reference::Ray& ray) const;
   template <bool any_will_do>
-  void traverse(const reference::Ray& ray, reference::Hit& best) const;
+  void traverse(const Tree& tree, const reference::Ray& ray, reference::Hit& best) const;
+  // A primitive, or an instance by its number after all primitives.
   template <bool any_will_do>
-  bool test_leaf(const BinaryNode& leaf, const reference::Ray& ray, reference::Hit& best) const;
+  void meet(std::uint32_t id, const reference::Ray& ray, reference::Hit& best) const;
 
   const Scene* scene_;
-  BinaryTree tree_;
-  float largest_coordinate_ = 0; // of the scene's bounds, as a magnitude
+  Tree world_;
+  std::vector<Tree> prototypes_;
 };
-
-// The box of every primitive that has one, planes not, as the tree's builder wants them, with the groups of
-// scene_view.hpp.
-Column<PrimitiveBox> primitive_boxes(const Scene& scene);
 
 } // namespace fastrt

@@ -22,7 +22,8 @@ struct alignas(32) SphereBlock {
   std::int32_t primitive[block_size];
 };
 
-// Four primitives of the other kinds: their boxes and ids; what a ray needs to meet one is in ShapeView.
+// Four primitives of the other kinds, or instances: their boxes and ids; what a ray needs to meet one is in
+// ShapeView.
 struct alignas(32) ShapeBlock {
   float low_x[block_size], low_y[block_size], low_z[block_size];
   float high_x[block_size], high_y[block_size], high_z[block_size];
@@ -53,21 +54,34 @@ struct PlaneRow {
   float point[3], normal[3], side[3];
 };
 
-// The primitives that are neither triangles nor spheres, by kind. Their ids follow one another.
+// A prototype as the scene shows it in one place; src/scene/shapes.hpp says what the numbers are. Maps are
+// columns: what becomes of the three axes and of the origin.
+struct InstanceRow {
+  float to_object[4][3], to_world[4][3];
+  float low[3], high[3]; // the box in world space
+  float growth;
+  float largest_coordinate;       // of any box in the prototype's tree
+  std::uint32_t root;             // of that tree
+  std::uint32_t material, object; // of all that it shows; 0xFFFFFFFF: the primitives' own
+};
+
+// The primitives that are neither triangles nor spheres, by kind. Their ids follow one another, and those of
+// instances come after them: what a leaf of the scene's tree holds from first_plane on is an instance.
 struct ShapeView {
   const ConeRow* cones;
   const DiskRow* disks;
   const PolygonRow* polygons;
   const EdgeRow* edges;
   const PlaneRow* planes; // in no tree: every ray is held against every plane
-  std::int32_t first_cone, first_disk, first_polygon, first_plane; // ids
-  std::uint32_t plane_count;
+  const InstanceRow* instances;
+  std::int32_t first_cone, first_disk, first_polygon, first_plane, first_instance; // ids
+  std::uint32_t plane_count, instance_count;
 };
 
 // Group numbers of the tree's leaves.
 inline constexpr std::uint32_t triangle_group = 0;
 inline constexpr std::uint32_t sphere_group = 1;
-inline constexpr std::uint32_t shape_group = 2; // cones, disks and polygons, mixed
+inline constexpr std::uint32_t shape_group = 2; // cones, disks, polygons and instances, mixed
 
 // What a ray must know to meet the scene's primitives.
 struct GeometryView {

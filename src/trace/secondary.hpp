@@ -111,7 +111,7 @@ FASTRT_INLINE PathV transmit_of(const MaterialRow& row, const SurfaceBatch& s, i
 
 // Columns of a PathBatch that not every scene needs.
 struct KeptColumns {
-  bool media, width;
+  bool media, width, inner;
 };
 
 // One packet's worth of new rays, before the ones worth tracing are picked.
@@ -141,6 +141,7 @@ FASTRT_INLINE void append_rays(const NewRays& rays, const PathBatch& parent, con
     out.t_max[count] = __builtin_inff();
     out.exclude[count] = s.planar[i + lane];
     out.pixel[count] = parent.pixel[i + lane];
+    if (keep.inner) out.exclude_inner[count] = s.planar_inner[i + lane];
     if (keep.width) out.width[count] = s.width[i + lane];
     if (!keep.media) continue;
     for (int k = 0; k < max_media; ++k)
@@ -159,7 +160,8 @@ FASTRT_INLINE std::uint32_t worth_tracing(const PathV& weight, float min_contrib
 FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, const SurfaceBatch& s,
                                  const MaterialRow& row, std::uint32_t bits, int i, PathBatch& reflected,
                                  PathBatch& refracted) {
-  const KeptColumns keep{job.scene->shading.has_transmission != 0, job.scene->shading.has_textures != 0};
+  const KeptColumns keep{job.scene->shading.has_transmission != 0, job.scene->shading.has_textures != 0,
+                         job.scene->shading.shapes.instance_count != 0};
   MediaLanes media{};
   const bool bends = row.has_transmit != 0 && row.thin == 0;
   if (bends)

@@ -63,13 +63,39 @@ PlaneRow row_of(const PlaneShape& plane) {
   return row;
 }
 
+void copy(const Affine& from, float (&to)[4][3]) {
+  copy(from.x, to[0]);
+  copy(from.y, to[1]);
+  copy(from.z, to[2]);
+  copy(from.origin, to[3]);
+}
+
+InstanceRow instance_row(const Scene& scene, std::size_t i, const std::vector<PrototypeTree>& prototypes) {
+  const InstanceColumns& instances = scene.desc().instances;
+  const InstanceShape& shape = scene.shapes().instances[i];
+  const PrototypeTree& tree = prototypes[instances.prototype[i]];
+  InstanceRow row{};
+  copy(shape.to_object, row.to_object);
+  copy(instances.to_world[i], row.to_world);
+  copy_box(shape.box, row);
+  row.growth = shape.growth;
+  row.largest_coordinate = tree.largest_coordinate;
+  row.root = tree.root;
+  row.material = instances.material[i];
+  row.object = instances.object[i];
+  return row;
+}
+
 template <class Shape, class Row>
 void fill(const std::vector<Shape>& shapes, Column<Row>& rows) {
   rows.resize(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) rows[i] = row_of(shapes[i]);
 }
 
+// Of a primitive, or of an instance by its number after all primitives.
 const Aabb& box_of(const Scene& scene, std::uint32_t primitive) {
+  if (primitive >= scene.primitive_count())
+    return scene.shapes().instances[primitive - scene.primitive_count()].box;
   const PrimitiveKind kind = scene.kind(primitive);
   const std::uint32_t row = primitive - scene.first_of(kind);
   if (kind == PrimitiveKind::cone) return scene.shapes().cones[row].box;
@@ -81,11 +107,14 @@ const Aabb& box_of(const Scene& scene, std::uint32_t primitive) {
 
 std::size_t ShapeRows::bytes() const noexcept {
   return cones.bytes() + disks.bytes() + polygons.bytes() + edges.bytes() + planes.bytes() +
-         materials.bytes() + objects.bytes();
+         instances.bytes() + materials.bytes() + objects.bytes();
 }
 
-ShapeRows shape_rows(const Scene& scene) {
+ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& prototypes) {
   ShapeRows rows;
+  rows.instances.resize(scene.instance_count());
+  for (std::size_t i = 0; i < rows.instances.size(); ++i)
+    rows.instances[i] = instance_row(scene, i, prototypes);
   fill(scene.shapes().cones, rows.cones);
   fill(scene.shapes().disks, rows.disks);
   fill(scene.shapes().polygons, rows.polygons);
@@ -110,11 +139,14 @@ ShapeView shape_view(const Scene& scene, const ShapeRows& rows) {
   view.polygons = rows.polygons.data();
   view.edges = rows.edges.data();
   view.planes = rows.planes.data();
+  view.instances = rows.instances.data();
   view.first_cone = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::cone));
   view.first_disk = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::disk));
   view.first_polygon = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::polygon));
   view.first_plane = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::plane));
+  view.first_instance = static_cast<std::int32_t>(scene.primitive_count());
   view.plane_count = scene.count_of(PrimitiveKind::plane);
+  view.instance_count = scene.instance_count();
   return view;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "src/kernels/triangle.hpp"
+#include "src/trace/instance_lanes.hpp"
 #include "src/trace/shape_surface.hpp"
 #include "src/trace/tile_job.hpp"
 
@@ -131,40 +132,101 @@ FASTRT_INLINE std::uint32_t object_index(const ShadingView& scene, std::int32_t 
   return scene.shape_object[primitive - scene.shapes.first_cone];
 }
 
+FASTRT_INLINE std::uint32_t material_of_hit(const ShadingView& scene, const HitBatch& hits, int i) {
+  const InstanceRow* row = instance_of(scene.shapes, hits.primitive[i]);
+  if (row == nullptr) return material_index(scene, hits.primitive[i]);
+  return row->material != no_override ? row->material : material_index(scene, hits.inner[i]);
+}
+
+FASTRT_INLINE std::uint32_t object_of_hit(const ShadingView& scene, const HitBatch& hits, int i) {
+  const InstanceRow* row = instance_of(scene.shapes, hits.primitive[i]);
+  if (row == nullptr) return object_index(scene, hits.primitive[i]);
+  return row->object != no_override ? row->object : object_index(scene, hits.inner[i]);
+}
+
+// Lanes by the kind of primitive that they hit.
+struct HitKinds {
+  std::uint32_t triangles, spheres, shapes;
+};
+
+// Adds a lane to the kind of its primitive. Returns whether that is flat.
+FASTRT_INLINE bool sort_hit(const ShadingView& scene, std::int32_t id, int lane, HitKinds& kinds) {
+  if (static_cast<std::uint32_t>(id) < scene.triangle_count) {
+    kinds.triangles |= 1U << lane;
+    return true;
+  }
+  if (id < scene.shapes.first_cone) {
+    kinds.spheres |= 1U << lane;
+    return false;
+  }
+  kinds.shapes |= 1U << lane;
+  return id >= scene.shapes.first_disk;
+}
+
+// The surfaces of primitives where rays hit them at t.
+FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* primitives,
+                                  const HitKinds& kinds, const PathV& origin, const PathV& dir,
+                                  const float* t) {
+  Surface s;
+  if (kinds.triangles != 0) s = triangle_surface(scene, primitives, kinds.triangles, origin, dir);
+  if (kinds.spheres != 0) {
+    const Surface on_sphere =
+        sphere_surface(scene, primitives, kinds.spheres, origin, dir, PathF::load_aligned(t));
+    s = kinds.triangles != 0 ? select(from_bits<widest>(kinds.spheres), on_sphere, s) : on_sphere;
+  }
+  if (kinds.shapes != 0) {
+    const Surface on_shape =
+        shape_surface(scene.shapes, primitives, kinds.shapes, origin, dir, PathF::load_aligned(t));
+    s = (kinds.triangles | kinds.spheres) != 0 ? select(from_bits<widest>(kinds.shapes), on_shape, s)
+                                               : on_shape;
+  }
+  return s;
+}
+
+// find_surfaces of a scene with instances.
+[[gnu::noinline]] static void find_instance_surfaces(const ShadingView& scene, const PathBatch& rays,
+                                                     const HitBatch& hits, int i,
+                                                     SurfaceBatch& batch) noexcept {
+  const int count = rays.count - i < widest ? rays.count - i : widest;
+  InstanceLanes lanes{};
+  gather_instances(scene.shapes, hits, i, count, lanes);
+  HitKinds kinds{};
+  for (int lane = 0; lane < count; ++lane) {
+    const std::int32_t id = lanes.primitive[lane];
+    batch.planar[i + lane] = batch.planar_inner[i + lane] = -1;
+    if (id < 0) continue;
+    batch.material[i + lane] = static_cast<std::int32_t>(material_of_hit(scene, hits, i + lane));
+    if (!sort_hit(scene, id, lane, kinds)) continue;
+    batch.planar[i + lane] = hits.primitive[i + lane];
+    batch.planar_inner[i + lane] = id;
+  }
+  const PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+  PathV origin_there = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+  PathV dir_there = dir;
+  if (lanes.bits != 0) rays_to_objects(lanes, origin_there, dir_there);
+  Surface s = surfaces_of(scene, lanes.primitive, kinds, origin_there, dir_there, hits.t + i);
+  if (lanes.bits != 0) surfaces_to_world(lanes, s);
+  face_viewer(s, dir);
+  store_surface(s, dir, i, batch);
+  PathF::load_aligned(lanes.growth).store_aligned(batch.growth + i);
+}
+
 // The surfaces that rays i .. i + widest - 1 hit; rows of rays that missed hold no meaning.
 FASTRT_INLINE void find_surfaces(const ShadingView& scene, const PathBatch& rays, const HitBatch& hits, int i,
                                  SurfaceBatch& batch) {
+  if (scene.shapes.instance_count != 0) return find_instance_surfaces(scene, rays, hits, i, batch);
   const std::int32_t* primitives = hits.primitive + i;
-  std::uint32_t triangles = 0, spheres = 0, shapes = 0;
+  HitKinds kinds{};
   for (int lane = 0; lane < widest && i + lane < rays.count; ++lane) {
     const std::int32_t id = primitives[lane];
     batch.planar[i + lane] = -1;
     if (id < 0) continue;
     batch.material[i + lane] = static_cast<std::int32_t>(material_index(scene, id));
-    if (static_cast<std::uint32_t>(id) < scene.triangle_count) {
-      triangles |= 1U << lane;
-      batch.planar[i + lane] = id;
-    } else if (id < scene.shapes.first_cone) {
-      spheres |= 1U << lane;
-    } else {
-      shapes |= 1U << lane;
-      if (id >= scene.shapes.first_disk) batch.planar[i + lane] = id;
-    }
+    if (sort_hit(scene, id, lane, kinds)) batch.planar[i + lane] = id;
   }
   const PathV origin = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
   const PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-  Surface s;
-  if (triangles != 0) s = triangle_surface(scene, primitives, triangles, origin, dir);
-  if (spheres != 0) {
-    const Surface on_sphere =
-        sphere_surface(scene, primitives, spheres, origin, dir, PathF::load_aligned(hits.t + i));
-    s = triangles != 0 ? select(from_bits<widest>(spheres), on_sphere, s) : on_sphere;
-  }
-  if (shapes != 0) {
-    const Surface on_shape =
-        shape_surface(scene.shapes, primitives, shapes, origin, dir, PathF::load_aligned(hits.t + i));
-    s = (triangles | spheres) != 0 ? select(from_bits<widest>(shapes), on_shape, s) : on_shape;
-  }
+  Surface s = surfaces_of(scene, primitives, kinds, origin, dir, hits.t + i);
   face_viewer(s, dir);
   store_surface(s, dir, i, batch);
 }

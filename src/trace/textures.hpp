@@ -24,11 +24,20 @@ struct HitSite {
   bool is_triangle, has_uv;
 };
 
-// t: of the hit. point: the surface's, or null for origin + t * dir.
-static HitSite find_site(const ShadingView& scene, std::int32_t primitive, const Row3& origin,
-                         const Row3& dir, float t, const Row3* point) noexcept {
+// Hit i of the batch. point: the surface's, or null for origin + t * dir.
+static HitSite find_site(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
+                         const Row3* point) noexcept {
   HitSite site{};
+  const float t = hits.t[i];
+  const std::int32_t primitive = shown_primitive(scene.shapes, hits, i);
+  const InstanceRow* const instance = instance_of(scene.shapes, hits.primitive[i]);
+  Row3 origin = row3(rays.origin_x, rays.origin_y, rays.origin_z, static_cast<std::uint32_t>(i));
+  Row3 dir = row3(rays.dir_x, rays.dir_y, rays.dir_z, static_cast<std::uint32_t>(i));
   const Row3 p = point != nullptr ? *point : origin + dir * t;
+  if (instance != nullptr) {
+    origin = map_point(instance->to_object, origin);
+    dir = map_vector(instance->to_object, dir);
+  }
   site.at.point[0] = p.x;
   site.at.point[1] = p.y;
   site.at.point[2] = p.z;
@@ -67,6 +76,10 @@ static HitSite find_site(const ShadingView& scene, std::int32_t primitive, const
   site.dv2 = tv[uv[2]] - tv[uv[0]];
   site.edge1 = vertex[1] - vertex[0];
   site.edge2 = vertex[2] - vertex[0];
+  if (instance != nullptr) {
+    site.edge1 = map_vector(instance->to_world, site.edge1);
+    site.edge2 = map_vector(instance->to_world, site.edge2);
+  }
   const Row3 normal = cross(site.edge1, site.edge2);
   site.at.density =
       __builtin_fabsf(site.du1 * site.dv2 - site.du2 * site.dv1) / __builtin_sqrtf(dot(normal, normal));
@@ -163,9 +176,7 @@ static void texture_surface(const ShadingView& scene, const PathBatch& rays, con
   const Row3 point{s.point_x[i], s.point_y[i], s.point_z[i]};
   const Row3 ng{s.geometric_x[i], s.geometric_y[i], s.geometric_z[i]};
   const Row3 viewer{s.viewer_x[i], s.viewer_y[i], s.viewer_z[i]};
-  const HitSite site =
-      find_site(scene, hits.primitive[i], Row3{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]},
-                Row3{rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}, hits.t[i], &point);
+  const HitSite site = find_site(scene, rays, hits, i, &point);
   const float footprint = (s.width[i] * s.width[i]) / dot(ng, viewer);
   Row3 ambient = textured(material.ambient, textures.ambient, site, footprint);
   Row3 diffuse = textured(material.diffuse, textures.diffuse, site, footprint);
@@ -202,9 +213,7 @@ FASTRT_INLINE void texture_surfaces(const ShadingView& scene, const PathBatch& r
 // What the surface that shadow ray i hit lets through, where its opacity is a texture. Looked up in level 0.
 static Row3 transmit_at(const ShadingView& scene, const MaterialRow& material, const RayBatch& rays,
                         const HitBatch& hits, int i) noexcept {
-  const HitSite site =
-      find_site(scene, hits.primitive[i], Row3{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]},
-                Row3{rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}, hits.t[i], nullptr);
+  const HitSite site = find_site(scene, rays, hits, i, nullptr);
   const float through = 1.0F - textured_opacity(material, site, 0.0F);
   return {through * material.transmission[0], through * material.transmission[1],
           through * material.transmission[2]};

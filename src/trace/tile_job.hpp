@@ -39,7 +39,11 @@ struct alignas(64) SurfaceBatch {
   float opacity[batch_size];
   float width[batch_size];
   std::int32_t material[batch_size];
-  std::int32_t planar[batch_size];      // the primitive, where a secondary ray must exclude it; else -1
+  std::int32_t planar[batch_size]; // the primitive (or instance), where a secondary ray must exclude it; else
+                                   // -1
+  // Of scenes with instances alone: the primitive to exclude in the instance, and the map's growth.
+  std::int32_t planar_inner[batch_size];
+  float growth[batch_size];
   std::uint32_t shaded[batch_size / 4]; // per packet: bits of the rays whose surfaces answer light
 };
 

@@ -22,12 +22,6 @@ const KernelTable* table_of(Isa isa) noexcept {
   return nullptr;
 }
 
-float largest_magnitude(const Aabb& box) {
-  if (box.empty()) return 0.0F;
-  const Vec3 v = glm::max(glm::abs(box.lower), glm::abs(box.upper));
-  return std::fmax(v.x, std::fmax(v.y, v.z));
-}
-
 void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree) {
   GeometryView& view = parts.view.geometry;
   view.nodes = parts.nodes.data();
@@ -99,35 +93,26 @@ void fill_shading_view(Tracer::Parts& parts) {
   }
 }
 
-void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
+void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
   BvhStats& stats = parts.stats;
-  stats.sah_cost = sah_cost(tree);
-  stats.node_count = tree.nodes.size();
-  stats.leaf_count = leaf_count(tree);
+  stats = trees.stats;
   stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size() + parts.shape_blocks.size();
-  stats.depth = tree_depth(tree);
-  stats.bytes = tree.nodes.size() * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
+  stats.bytes = stats.node_count * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
                 parts.sphere_blocks.size() * sizeof(SphereBlock) +
                 parts.shape_blocks.size() * sizeof(ShapeBlock) + parts.shapes.bytes();
   const std::uint32_t primitives = parts.scene.primitive_count();
   stats.bytes_per_primitive = primitives == 0 ? 0.0 : static_cast<double>(stats.bytes) / primitives;
 }
 
-// Boxes -> binary tree -> wide tree -> blocks. The tree's own parts are let go where the next has been made.
-WideTree build(Tracer::Parts& parts, int threads) {
-  BuildSettings settings;
-  settings.threads = threads;
-  WideTree tree;
-  {
-    Column<PrimitiveBox> boxes = primitive_boxes(parts.scene);
-    const BinaryTree binary = build_binary_tree(boxes, settings);
-    tree = collapse(binary, settings);
-  }
-  parts.triangle_blocks = triangle_blocks(parts.scene, tree.slots[triangle_group], threads);
-  parts.sphere_blocks = sphere_blocks(parts.scene, tree.slots[sphere_group]);
-  parts.shape_blocks = shape_blocks(parts.scene, tree.slots[shape_group]);
-  parts.shapes = shape_rows(parts.scene);
-  return tree;
+// Trees -> blocks and rows.
+SceneTrees build(Tracer::Parts& parts, int threads) {
+  SceneTrees trees = build_scene_trees(parts.scene, threads);
+  const auto& slots = trees.all.slots;
+  parts.triangle_blocks = triangle_blocks(parts.scene, slots[triangle_group], threads);
+  parts.sphere_blocks = sphere_blocks(parts.scene, slots[sphere_group]);
+  parts.shape_blocks = shape_blocks(parts.scene, slots[shape_group]);
+  parts.shapes = shape_rows(parts.scene, trees.prototypes);
+  return trees;
 }
 
 } // namespace
@@ -139,14 +124,14 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   if (!isa_available(parts.isa)) parts.isa = select_isa(isa_name(settings.isa)); // throws
   parts.kernels = table_of(parts.isa);
   const auto start = std::chrono::steady_clock::now();
-  WideTree tree = build(parts, settings.threads);
+  SceneTrees trees = build(parts, settings.threads);
+  fill_stats(parts, trees);
   parts.stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fill_stats(parts, tree);
-  parts.nodes = std::move(tree.nodes);
+  parts.nodes = std::move(trees.all.nodes);
   parts.textures = texture_rows(parts.scene);
   parts.materials = material_rows(parts.scene, parts.textures);
   parts.lights = light_rows(parts.scene);
-  fill_geometry_view(parts, tree);
+  fill_geometry_view(parts, trees.all);
   fill_shading_view(parts);
   if (parts.kernels == nullptr) parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings.threads);
 }

@@ -5,6 +5,7 @@
 #include "src/accel/tree.hpp"
 #include "src/kernels/kernel_table.hpp"
 #include "src/trace/scalar_bvh.hpp"
+#include "src/trace/scene_trees.hpp"
 #include "src/trace/scene_view.hpp"
 
 #include <fastrt/column.hpp>
@@ -22,14 +23,15 @@ struct TextureRows {
   std::vector<SurfaceTextures> materials; // as Scene::materials()
 };
 
-// What the kernels read of cones, disks, polygons and planes.
+// What the kernels read of cones, disks, polygons, planes and instances.
 struct ShapeRows {
   Column<ConeRow> cones;
   Column<DiskRow> disks;
   Column<PolygonRow> polygons;
   Column<EdgeRow> edges;
   Column<PlaneRow> planes;
-  Column<std::uint32_t> materials, objects; // of all of them, by id
+  Column<InstanceRow> instances;
+  Column<std::uint32_t> materials, objects; // of all but instances, by id
   std::size_t bytes() const noexcept;
 };
 
@@ -57,7 +59,7 @@ std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& te
 TextureRows texture_rows(const Scene& scene);
 std::vector<LightRow> light_rows(const Scene& scene);
 
-ShapeRows shape_rows(const Scene& scene);
+ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& prototypes);
 ShapeView shape_view(const Scene& scene, const ShapeRows& rows);
 
 // The leaf blocks in the tree's order. slots: primitive ids, block_size a block, -1 where a block is not

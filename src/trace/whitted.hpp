@@ -131,6 +131,13 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   push(scratch, reflected);
 }
 
+// What the pixels see: in an instance, the primitive that it shows.
+FASTRT_INLINE void keep_first(const ShapeView& shapes, TileScratch& scratch) {
+  __builtin_memcpy(scratch.first_primitive, scratch.hits.primitive, sizeof scratch.first_primitive);
+  if (shapes.instance_count == 0) return;
+  for (int i = 0; i < batch_size; ++i) scratch.first_primitive[i] = shown_primitive(shapes, scratch.hits, i);
+}
+
 // All that follows from a batch of camera rays. first: the primitives that they see are to be kept.
 static void trace_tree(const TileJob& job, PathBatch& camera_rays, bool first, TileScratch& scratch,
                        TileRayCounts& counts) noexcept {
@@ -138,8 +145,7 @@ static void trace_tree(const TileJob& job, PathBatch& camera_rays, bool first, T
   while (scratch.waiting_count != 0) {
     PathBatch& batch = *scratch.waiting[--scratch.waiting_count];
     trace_paths(job, batch, scratch, counts);
-    if (first)
-      __builtin_memcpy(scratch.first_primitive, scratch.hits.primitive, sizeof scratch.first_primitive);
+    if (first) keep_first(job.scene->shading.shapes, scratch);
     first = false;
     give_back(scratch, batch);
   }

@@ -28,7 +28,9 @@ inline std::vector<Hit> answers_of(const reference::HitFinder& finder, std::span
 }
 
 // Rows that hold no ray are full of numbers that would show.
-inline void fill_batch(std::span<const Ray> rays, BatchShape shape, RayBatch& batch) {
+// first_instance: the id of the scene's first instance.
+inline void fill_batch(std::span<const Ray> rays, BatchShape shape, std::int32_t first_instance,
+                       RayBatch& batch) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   for (int i = 0; i < batch_size; ++i) {
     Ray ray;
@@ -43,7 +45,9 @@ inline void fill_batch(std::span<const Ray> rays, BatchShape shape, RayBatch& ba
     batch.dir_z[i] = ray.direction.z;
     batch.t_min[i] = ray.t_min;
     batch.t_max[i] = ray.t_max;
-    batch.exclude[i] = ray.excluded;
+    const bool inside = ray.excluded_instance != no_instance;
+    batch.exclude[i] = inside ? first_instance + ray.excluded_instance : ray.excluded;
+    batch.exclude_inner[i] = inside ? ray.excluded : 7;
   }
   batch.count = static_cast<int>(rays.size());
   batch.shape = shape;
@@ -56,16 +60,22 @@ public:
 
   std::vector<Hit> closest(const KernelTable& kernels, const SceneView& view, std::span<const Ray> rays,
                            BatchShape shape) {
-    fill_batch(rays, shape, *rays_);
+    const std::int32_t first_instance = view.geometry.shapes.first_instance;
+    fill_batch(rays, shape, first_instance, *rays_);
     kernels.closest_hits(view.geometry, *rays_, *hits_);
     kernels.hit_weights(view.shading, *rays_, *hits_, u_, v_);
     std::vector<Hit> found(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = {hits_->t[i], u_[i], v_[i], hits_->primitive[i]};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      found[i] = {hits_->t[i], u_[i], v_[i], hits_->primitive[i]};
+      if (found[i].primitive < first_instance) continue;
+      found[i].instance = found[i].primitive - first_instance;
+      found[i].primitive = hits_->inner[i];
+    }
     return found;
   }
   std::vector<bool> any(const KernelTable& kernels, const SceneView& view, std::span<const Ray> rays,
                         BatchShape shape) {
-    fill_batch(rays, shape, *rays_);
+    fill_batch(rays, shape, view.geometry.shapes.first_instance, *rays_);
     kernels.any_hits(view.geometry, *rays_, *hits_);
     std::vector<bool> found(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) found[i] = hits_->primitive[i] >= 0;
@@ -88,16 +98,17 @@ inline TracerSettings with_isa(Isa isa) {
 
 inline std::string words(const Ray& ray, const Hit& expected, const Hit& found) {
   char text[512];
-  std::snprintf(
-      text, sizeof text,
-      "o (%a, %a, %a) d (%a, %a, %a) t_min %a t_max %a excluded %d: expected primitive %d t %a u %a "
-      "v %a, found primitive %d t %a u %a v %a",
-      static_cast<double>(ray.origin.x), static_cast<double>(ray.origin.y), static_cast<double>(ray.origin.z),
-      static_cast<double>(ray.direction.x), static_cast<double>(ray.direction.y),
-      static_cast<double>(ray.direction.z), static_cast<double>(ray.t_min), static_cast<double>(ray.t_max),
-      ray.excluded, expected.primitive, static_cast<double>(expected.t), static_cast<double>(expected.u),
-      static_cast<double>(expected.v), found.primitive, static_cast<double>(found.t),
-      static_cast<double>(found.u), static_cast<double>(found.v));
+  std::snprintf(text, sizeof text,
+                "o (%a, %a, %a) d (%a, %a, %a) t_min %a t_max %a excluded %d in %d: expected primitive %d in "
+                "%d t %a u %a v %a, found primitive %d in %d t %a u %a v %a",
+                static_cast<double>(ray.origin.x), static_cast<double>(ray.origin.y),
+                static_cast<double>(ray.origin.z), static_cast<double>(ray.direction.x),
+                static_cast<double>(ray.direction.y), static_cast<double>(ray.direction.z),
+                static_cast<double>(ray.t_min), static_cast<double>(ray.t_max), ray.excluded,
+                ray.excluded_instance, expected.primitive, expected.instance, static_cast<double>(expected.t),
+                static_cast<double>(expected.u), static_cast<double>(expected.v), found.primitive,
+                found.instance, static_cast<double>(found.t), static_cast<double>(found.u),
+                static_cast<double>(found.v));
   return text;
 }
 

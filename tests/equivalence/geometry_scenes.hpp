@@ -4,7 +4,7 @@
 #pragma once
 
 #include "tests/equivalence/pairs.hpp"
-#include "tests/unit/shape_scenes.hpp"
+#include "tests/unit/instance_scenes.hpp"
 
 #include <fastrt/scene.hpp>
 
@@ -149,6 +149,59 @@ inline Scene one_cone() {
   return builder.build();
 }
 
+// Instances of every kind of prototype, small ones within large ones; size: of the scene.
+inline Scene instances_scene(int count, float size, const Vec3& offset, float stretch, Random& random) {
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add_material({});
+  for (std::uint32_t kind = 0; kind < 6; ++kind) add_prototype(builder, kind, material, random);
+  add(builder, placed(mixed_soup(30, -4, 0, random), size, offset), material);
+  for (int i = 0; i < count; ++i)
+    builder.add_instance(random.below(6), any_map(offset + size * random.in_cube(),
+                                                  size * any_size(random, -4, 0), stretch, random));
+  builder.add_sphere(offset, 0.2F * size, material);
+  return builder.build();
+}
+
+// The same thing again and again in the same place: as it is, twice as instances, and once more by its
+// neighbours' faces. Boxes of whole numbers, side by side.
+inline Scene coinciding_instances() {
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add_material({});
+  const Mesh box = placed(icosphere(0), 1, {0, 0, 0});
+  builder.begin_prototype();
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const std::vector<std::uint32_t> faces{0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                                         1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+  builder.add_mesh(corners, faces, material);
+  const std::uint32_t cube = builder.end_prototype();
+  builder.begin_prototype();
+  add(builder, box, material);
+  builder.add_sphere({0, 0, 0}, 0.9F, material);
+  const std::uint32_t ball = builder.end_prototype();
+  for (int i = 0; i < 8; ++i)
+    builder.add_instance(cube, scaled(Vec3(1.0F), {static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1),
+                                                   static_cast<float>(i >> 2)}));
+  for (int i = 0; i < 3; ++i) builder.add_instance(ball, {});
+  builder.add_instance(cube, {});
+  add(builder, box, material);
+  builder.add_mesh(corners, faces, material);
+  builder.add_sphere({0, 0, 0}, 0.9F, material);
+  return builder.build();
+}
+
+inline Scene flat_instances() {
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add_material({});
+  builder.begin_prototype();
+  add(builder, grid(2, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}), material);
+  const std::uint32_t tile = builder.end_prototype();
+  for (int i = 0; i < 16; ++i)
+    builder.add_instance(tile, scaled({1, 1, 1}, {static_cast<float>(i % 4), static_cast<float>(i / 4), 0}));
+  builder.add_plane({0, 0, 0}, {0, 0, 1}, material);
+  return builder.build();
+}
+
 inline std::vector<NamedScene> geometry_scenes() {
   Random random(77);
   std::vector<NamedScene> scenes;
@@ -180,6 +233,14 @@ inline std::vector<NamedScene> geometry_scenes() {
   scenes.push_back({"shapes_large", shapes_scene(60, 1e4F, {3e3F, 0, 0}, 0, false, random)});
   scenes.push_back({"odd_cones", odd_cones_scene(random)});
   scenes.push_back({"every_kind", shapes_scene(60, 1, {}, 3, true, random)});
+  scenes.push_back({"one_instance", instances_scene(1, 1, {}, 0.5F, random)});
+  scenes.push_back({"instances", instances_scene(40, 1, {}, 1, random)});
+  scenes.push_back({"instances_stretched", instances_scene(20, 1, {}, 3, random)});
+  scenes.push_back({"instances_far_away", instances_scene(20, 1, {1e3F, -2e3F, 5e2F}, 1, random)});
+  scenes.push_back({"instances_small", instances_scene(20, 1e-3F, {0, 0, 1e-2F}, 1, random)});
+  scenes.push_back({"instances_large", instances_scene(20, 1e4F, {3e3F, 0, 0}, 1, random)});
+  scenes.push_back({"instances_coinciding", coinciding_instances()});
+  scenes.push_back({"instances_flat", flat_instances()});
   return scenes;
 }
 

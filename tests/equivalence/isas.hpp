@@ -63,7 +63,8 @@ inline bool same(float a, float b) { return bits(a) == bits(b) || (std::isnan(a)
 // negated, and means nothing.
 inline bool same_weight(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 inline bool same(const reference::Hit& a, const reference::Hit& b) {
-  return a.primitive == b.primitive && same(a.t, b.t) && same_weight(a.u, b.u) && same_weight(a.v, b.v);
+  return a.primitive == b.primitive && a.instance == b.instance && same(a.t, b.t) && same_weight(a.u, b.u) &&
+         same_weight(a.v, b.v);
 }
 
 } // namespace fastrt::test

@@ -180,6 +180,18 @@ inline RayRun parallel_run(const Scene& scene, Random& random) {
   return run;
 }
 
+// Some primitive, by itself or in an instance.
+inline void exclude_any(const Scene& scene, Random& random, Ray& ray) {
+  ray.excluded = static_cast<std::int32_t>(random.below(300));
+  if (scene.instance_count() == 0) return;
+  ray.excluded = static_cast<std::int32_t>(random.below(scene.primitive_count()));
+  if (random.below(4) == 0) return;
+  const std::uint32_t instance = random.below(scene.instance_count());
+  if (scene.shapes().instances[instance].box.empty()) return;
+  ray.excluded_instance = static_cast<std::int32_t>(instance);
+  ray.excluded = static_cast<std::int32_t>(primitive_of(scene, prototype_of(scene, instance), random));
+}
+
 // What may be mixed into any run without a change for the rest: intervals, excluded primitives, lengths (not
 // of parallel rays), dead rays with any numbers in them.
 inline void vary(RayRun& run, const Scene& scene, bool one_origin, Random& random) {
@@ -188,7 +200,7 @@ inline void vary(RayRun& run, const Scene& scene, bool one_origin, Random& rando
     const float reach = extent_of(scene).radius / (glm::length(ray.direction) + 1e-30F);
     if (kind == 1) ray.t_min = random.uniform(-1, 2) * reach;
     if (kind == 2) ray.t_max = random.uniform(0, 4) * reach;
-    if (kind == 3) ray.excluded = static_cast<std::int32_t>(random.below(300));
+    if (kind == 3) exclude_any(scene, random, ray);
     if (kind == 4 && one_origin) ray.direction *= any_size(random, -10, 10);
     if (kind != 5 || random.below(3) == 0) continue;
     ray.t_max = ray.t_min - (random.below(2) == 0 ? 0.0F : 1.0F);

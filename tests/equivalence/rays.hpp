@@ -2,7 +2,7 @@
 // Single rays at a scene, chosen to be difficult.
 #pragma once
 
-#include "src/reference/intersect.hpp"
+#include "src/reference/instances.hpp"
 #include "tests/equivalence/pairs.hpp"
 
 #include <fastrt/scene.hpp>
@@ -91,7 +91,36 @@ inline Vec3 target_on(const Scene& scene, std::uint32_t primitive, Random& rando
     return from + u * along + (1 - u) * random.uniform() * across;
   }
 }
+// Any primitive of a prototype that has some.
+inline std::uint32_t primitive_of(const Scene& scene, const Prototype& prototype, Random& random) {
+  for (;;) {
+    const std::uint32_t kind = random.below(5);
+    const std::uint32_t count = prototype.end[kind] - prototype.begin[kind];
+    if (count != 0)
+      return scene.first_of(static_cast<PrimitiveKind>(kind)) + prototype.begin[kind] + random.below(count);
+  }
+}
+inline const Prototype& prototype_of(const Scene& scene, std::uint32_t instance) {
+  return scene.desc().prototypes[scene.desc().instances.prototype[instance]];
+}
+// On what an instance shows, or at a corner or a face of its box.
+inline Vec3 target_on_instance(const Scene& scene, std::uint32_t instance, Random& random) {
+  const Aabb& box = scene.shapes().instances[instance].box;
+  if (box.empty()) return random.in_cube();
+  if (random.below(4) == 0) {
+    Vec3 target = box.center() + 0.5F * box.extent() * random.in_cube();
+    const std::uint32_t faces = 1 + random.below(7);
+    for (int axis = 0; axis < 3; ++axis)
+      if ((faces >> axis & 1U) != 0) target[axis] = random.below(2) == 0 ? box.lower[axis] : box.upper[axis];
+    return target;
+  }
+  return reference::map_point(
+      scene.desc().instances.to_world[instance],
+      target_on(scene, primitive_of(scene, prototype_of(scene, instance), random), random));
+}
 inline Vec3 target_on(const Scene& scene, Random& random) {
+  if (scene.instance_count() != 0 && random.below(8) != 0)
+    return target_on_instance(scene, random.below(scene.instance_count()), random);
   if (scene.primitive_count() == 0) return random.in_cube();
   return target_on(scene, random.below(scene.primitive_count()), random);
 }

@@ -39,9 +39,10 @@ std::vector<Hit> closest_hits(const Tracer& tracer, const RayArrays& rays, Coher
   std::vector<float> u(rays.count);
   std::vector<float> v(rays.count);
   std::vector<std::int32_t> primitive(rays.count);
-  tracer.closest_hit(rays, {t.data(), u.data(), v.data(), primitive.data()}, coherence);
+  std::vector<std::int32_t> instance(rays.count);
+  tracer.closest_hit(rays, {t.data(), u.data(), v.data(), primitive.data(), instance.data()}, coherence);
   std::vector<Hit> hits(rays.count);
-  for (std::size_t i = 0; i < rays.count; ++i) hits[i] = {t[i], u[i], v[i], primitive[i]};
+  for (std::size_t i = 0; i < rays.count; ++i) hits[i] = {t[i], u[i], v[i], primitive[i], instance[i]};
   return hits;
 }
 
@@ -96,7 +97,7 @@ TEST_P(TracerQueries, OfTilesWhetherOrNotTheirOriginIsOne) {
     while (rays.size() < count) {
       RayRun run = origin_run(scene(), random);
       vary(run, scene(), true, random);
-      for (Ray& ray : run) ray.excluded = no_primitive;
+      for (Ray& ray : run) ray.excluded = ray.excluded_instance = -1;
       rays.insert(rays.end(), run.begin(), run.end());
     }
     rays.resize(count);

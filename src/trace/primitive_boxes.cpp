@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/trace/primitive_boxes.hpp"
+
+#include "src/reference/arithmetic.hpp"
+#include "src/reference/intersect.hpp"
+#include "src/trace/scene_view.hpp"
+
+namespace fastrt {
+namespace {
+
+PrimitiveBox box_of(const Aabb& bounds, std::uint32_t id, std::uint32_t group) {
+  return {{bounds.lower.x, bounds.lower.y, bounds.lower.z},
+          id,
+          {bounds.upper.x, bounds.upper.y, bounds.upper.z},
+          group};
+}
+
+PrimitiveBox triangle_box(const Scene& scene, std::uint32_t row) {
+  const auto [a, b, c] = reference::triangle_vertices(scene, row);
+  Aabb bounds;
+  bounds.extend(a);
+  bounds.extend(b);
+  bounds.extend(c);
+  return box_of(bounds, row, triangle_group);
+}
+
+PrimitiveBox sphere_box(const Scene& scene, std::uint32_t row) {
+  const auto [center, radius] = reference::sphere_shape(scene, row);
+  // Two ulps more than the radius, so that no rounding leaves the rim outside.
+  const Vec3 reach{radius + 0x1p-22F * (radius + reference::largest_magnitude(center))};
+  return box_of({center - reach, center + reach}, scene.triangle_count() + row, sphere_group);
+}
+
+PrimitiveBox shape_box(const Scene& scene, PrimitiveKind kind, std::uint32_t row) {
+  const SceneShapes& shapes = scene.shapes();
+  const std::uint32_t id = scene.first_of(kind) + row;
+  if (kind == PrimitiveKind::cone) return box_of(shapes.cones[row].box, id, shape_group);
+  if (kind == PrimitiveKind::disk) return box_of(shapes.disks[row].box, id, shape_group);
+  return box_of(shapes.polygons[row].box, id, shape_group);
+}
+
+// Writes the boxes of some rows of a kind; returns where the next go.
+PrimitiveBox* put_boxes(const Scene& scene, std::size_t kind, const RowRange& rows, PrimitiveBox* to) {
+  const auto primitive = static_cast<PrimitiveKind>(kind);
+  for (std::uint32_t row = rows.begin; row < rows.end; ++row)
+    *to++ = primitive == PrimitiveKind::triangle ? triangle_box(scene, row)
+            : primitive == PrimitiveKind::sphere ? sphere_box(scene, row)
+                                                 : shape_box(scene, primitive, row);
+  return to;
+}
+
+} // namespace
+
+Column<PrimitiveBox> world_boxes(const Scene& scene) {
+  const KindRanges& world = scene.shapes().world;
+  std::size_t count = 0;
+  for (const auto& ranges : world)
+    for (const RowRange& rows : ranges) count += rows.end - rows.begin;
+  Column<PrimitiveBox> boxes(count);
+  PrimitiveBox* to = boxes.data();
+  for (std::size_t kind = 0; kind < world.size(); ++kind)
+    for (const RowRange& rows : world[kind]) to = put_boxes(scene, kind, rows, to);
+  for (std::uint32_t i = 0; i < scene.instance_count(); ++i) {
+    const Aabb& box = scene.shapes().instances[i].box;
+    if (!box.empty()) boxes.push_back(box_of(box, scene.primitive_count() + i, shape_group));
+  }
+  return boxes;
+}
+
+Column<PrimitiveBox> prototype_boxes(const Scene& scene, const Prototype& prototype) {
+  std::size_t count = 0;
+  for (std::size_t kind = 0; kind < prototype.begin.size(); ++kind)
+    count += prototype.end[kind] - prototype.begin[kind];
+  Column<PrimitiveBox> boxes(count);
+  PrimitiveBox* to = boxes.data();
+  for (std::size_t kind = 0; kind < prototype.begin.size(); ++kind)
+    to = put_boxes(scene, kind, {prototype.begin[kind], prototype.end[kind]}, to);
+  return boxes;
+}
+
+} // namespace fastrt

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/trace/scene_trees.hpp"
+
+#include "src/scene/shapes.hpp"
+#include "src/trace/primitive_boxes.hpp"
+
+#include <fastrt/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace fastrt {
+namespace {
+
+// Smaller trees are built by one thread: starting more takes longer.
+constexpr std::size_t parallel_from = 4096;
+
+// The binary tree is let go as soon as the wide one has been made of it.
+WideTree build_tree(Column<PrimitiveBox> boxes, int threads) {
+  const BuildSettings settings{boxes.size() < parallel_from ? 1 : threads};
+  const BinaryTree binary = build_binary_tree(boxes, settings);
+  return collapse(binary, settings);
+}
+
+// A child of a tree whose nodes and blocks are moved behind those of `all`.
+std::uint32_t moved(std::uint32_t child, const WideTree& all) {
+  if (child == no_child) return child;
+  if (!is_leaf(child)) return child + static_cast<std::uint32_t>(all.nodes.size());
+  return child + static_cast<std::uint32_t>(all.slots[leaf_group(child)].size() / block_size);
+}
+
+// Puts a tree behind the others; returns its root there.
+std::uint32_t append(WideTree& all, WideTree tree) {
+  for (std::size_t group = 0; group < max_groups; ++group)
+    if ((all.slots[group].size() + tree.slots[group].size()) / block_size > max_blocks)
+      throw LimitError("too many primitives for one tree: more than " + std::to_string(max_blocks) +
+                       " blocks");
+  for (WideNode& node : tree.nodes)
+    for (std::uint32_t& child : node.child) child = moved(child, all);
+  const std::uint32_t root = moved(tree.root, all);
+  all.nodes.append(tree.nodes.data(), tree.nodes.size());
+  for (std::size_t group = 0; group < max_groups; ++group)
+    all.slots[group].append(tree.slots[group].data(), tree.slots[group].size());
+  return root;
+}
+
+double area(const Aabb& box) {
+  if (box.empty()) return 0;
+  const glm::dvec3 e = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+  return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+}
+
+// A ray that meets an instance's box goes through its prototype's tree.
+double cost_of_instances(const Scene& scene, const std::vector<double>& costs, const Aabb& bounds) {
+  double sum = 0;
+  for (std::size_t i = 0; i < scene.instance_count(); ++i)
+    sum += area(scene.shapes().instances[i].box) * costs[scene.desc().instances.prototype[i]];
+  return area(bounds) > 0 ? sum / area(bounds) : 0.0;
+}
+
+} // namespace
+
+float largest_magnitude(const Aabb& box) {
+  if (box.empty()) return 0.0F;
+  const Vec3 v = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+  return std::fmax(v.x, std::fmax(v.y, v.z));
+}
+
+SceneTrees build_scene_trees(const Scene& scene, int threads) {
+  SceneTrees trees;
+  trees.all = build_tree(world_boxes(scene), threads);
+  BvhStats& stats = trees.stats;
+  stats.leaf_count = leaf_count(trees.all);
+  stats.sah_cost = sah_cost(trees.all);
+  stats.depth = tree_depth(trees.all);
+  int depth = 0;
+  std::vector<double> costs;
+  for (const Prototype& prototype : scene.desc().prototypes) {
+    WideTree tree = build_tree(prototype_boxes(scene, prototype), threads);
+    depth = std::max(depth, tree_depth(tree));
+    stats.leaf_count += leaf_count(tree);
+    costs.push_back(sah_cost(tree));
+    const float largest = largest_magnitude(tree.bounds);
+    trees.prototypes.push_back({append(trees.all, std::move(tree)), largest});
+  }
+  stats.node_count = trees.all.nodes.size();
+  stats.sah_cost += cost_of_instances(scene, costs, trees.all.bounds);
+  stats.depth += depth;
+  return trees;
+}
+
+} // namespace fastrt

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene's wide trees: one over what is in the world, its instances included, and one over each prototype.
+#pragma once
+
+#include "src/accel/tree.hpp"
+
+#include <fastrt/scene.hpp>
+#include <fastrt/tracer.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastrt {
+
+struct PrototypeTree {
+  std::uint32_t root;       // among the nodes of all; no_child of an empty prototype
+  float largest_coordinate; // of any box in it
+};
+
+// All trees in one list of nodes and one of slots; `all.root` and `all.bounds` are the world's.
+struct SceneTrees {
+  WideTree all;
+  std::vector<PrototypeTree> prototypes;
+  BvhStats stats; // of the trees alone: not the blocks' number and bytes
+};
+
+// threads: 0 takes every core. Throws LimitError for too many blocks.
+SceneTrees build_scene_trees(const Scene& scene, int threads);
+
+// The largest |coordinate| of a box, 0 of an empty one.
+float largest_magnitude(const Aabb& box);
+
+} // namespace fastrt
