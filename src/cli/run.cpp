@@ -187,6 +187,7 @@ void describe(const Options& options, const Tracer& tracer, const Frame& frame, 
   stats.triangles = tracer.scene().triangle_count();
   stats.spheres = tracer.scene().sphere_count();
   stats.shapes = tracer.scene().primitive_count() - tracer.scene().first_of(PrimitiveKind::cone);
+  stats.instances = tracer.scene().instance_count();
   stats.lights = tracer.scene().lights().size();
   stats.rays = frame.rays;
   stats.bvh = tracer.bvh_stats();

@@ -145,6 +145,7 @@ std::string summary_line(const RunStats& stats) {
     line += ", " + count(stats.triangles, "triangle");
   if (stats.spheres != 0) line += ", " + count(stats.spheres, "sphere");
   if (stats.shapes != 0) line += ", " + count(stats.shapes, "shape");
+  if (stats.instances != 0) line += ", " + count(stats.instances, "instance");
   line += ", " + std::to_string(stats.samples_per_pixel);
   if (stats.most_samples != 0) line += " to " + std::to_string(stats.most_samples);
   line += " spp, ";
@@ -160,6 +161,7 @@ std::string stats_text(const RunStats& stats) {
   const BvhStats& bvh = stats.bvh;
   std::string text = "scene    " + count(stats.triangles, "triangle") + ", " +
                      count(stats.spheres, "sphere") + ", " + count(stats.shapes, "shape") + ", " +
+                     (stats.instances != 0 ? count(stats.instances, "instance") + ", " : "") +
                      count(stats.lights, "light") + ", " +
                      short_number(mega(static_cast<double>(stats.scene_bytes))) + " MB\n";
   text += "engine   " + std::string(isa_name(stats.isa)) + ", " +
@@ -196,6 +198,7 @@ std::string stats_json(const RunStats& stats) {
   object.add("triangles", std::uint64_t{stats.triangles});
   object.add("spheres", std::uint64_t{stats.spheres});
   object.add("shapes", std::uint64_t{stats.shapes});
+  object.add("instances", std::uint64_t{stats.instances});
   object.add("lights", std::uint64_t{stats.lights});
   object.raw("seconds", seconds_json(stats));
   object.raw("rays", rays_json(stats.rays));
