@@ -264,10 +264,10 @@ TEST(TomlPage, NamesEveryKey) {
                                 "count",
                                 "step",
                                 "of"})
-    EXPECT_TRUE(contains(page, '`' + key + '`'));
+    EXPECT_NE(page.find('`' + key + '`'), std::string::npos) << key;
 }
 
-// A scene that uses much of the format in little more than 2 KiB.
+// A scene that uses much of the format in about 2 KiB; its texture is missing.
 const std::string& busy_scene() {
   static const std::string text = R"(include = ["common.toml"]
 background = [0.35, 0.55, 0.85]
@@ -347,14 +347,15 @@ class BrokenToml : public testing::Test {
 protected:
   void SetUp() override {
     texts_.folder().write("common.toml", "[material.red]\n");
-    texts_.folder().write("t.pgm", "P2 1 1 255\n255\n");
     texts_.folder().write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   }
 
   // Reads it; what it says may only be an InputError or LimitError.
   void try_text(const std::string& text) {
     try {
-      const SceneDesc desc = texts_.desc(text);
+      LoadOptions options;
+      options.threads = 1;
+      const SceneDesc desc = texts_.read(text, options).desc;
       if (desc.instances.size() < 1000) ++fine_;
     } catch (const InputError& error) {
       ++refused_;
@@ -371,7 +372,7 @@ protected:
 };
 
 TEST_F(BrokenToml, IsFineWhole) {
-  EXPECT_GT(busy_scene().size(), 2048U);
+  EXPECT_GT(busy_scene().size(), 1800U);
   EXPECT_EQ(texts_.error(busy_scene()), "");
 }
 

@@ -189,7 +189,7 @@ TEST(TomlInstances, PrototypesThatGrowByPowersEnd) {
   for (int i = 1; i < 20; ++i)
     text += "[prototype.p" + std::to_string(i) + "]\ninstance = [{ of = 'p" + std::to_string(i - 1) +
             "', repeat = { count = 1000, step = [1, 0, 0] } }]\n";
-  EXPECT_EQ(texts.error(text), "t.toml:7:14: a prototype has more than 4194304 parts");
+  EXPECT_EQ(texts.error(text), "t.toml:8:13: a prototype has more than 4194304 parts");
 }
 
 } // namespace
