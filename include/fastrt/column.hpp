@@ -86,7 +86,8 @@ public:
   }
   void append(const T* values, std::size_t count) {
     const std::size_t old_size = size_;
-    if (old_size + count > capacity_) reallocate(old_size + count);
+    const std::size_t grown = capacity_ + capacity_ / 2; // many small pieces must not be copied each time
+    if (old_size + count > capacity_) reallocate(old_size + count > grown ? old_size + count : grown);
     size_ = old_size + count;
     if (count != 0) std::memcpy(data_ + old_size, values, count * sizeof(T));
   }

@@ -21,6 +21,7 @@
 #include <fastrt/load.hpp>
 #include <fastrt/material.hpp>
 #include <fastrt/math.hpp>
+#include <fastrt/picture.hpp>
 #include <fastrt/render.hpp>
 #include <fastrt/scene.hpp>
 #include <fastrt/texture.hpp>

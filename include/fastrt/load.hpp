@@ -12,8 +12,9 @@ namespace fastrt {
 struct LoadOptions {
   int threads = 0;                   // 0 takes every core
   bool strict = false;               // warnings become InputError
-  bool allow_external_files = false; // material files outside the scene's folder
+  bool allow_external_files = false; // files that a scene names, outside its folder
   bool tr_is_opacity = false;        // MTL: Tr 1 means opaque
+  bool sidecar = true;               // load_scene: what find_sidecar finds is read too
 };
 
 // Reads a Wavefront OBJ file and its MTL files. Lights, ambient and background are left at their defaults.
@@ -29,7 +30,16 @@ SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options
 // of the picture (SceneDesc::camera, width, height). Errors and warnings as load_obj's.
 SceneDesc load_nff(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
-// Reads by the name's extension (.obj, .nff, .ply). Throws UsageError for one that is not known.
+// Reads a scene.toml, fastrt's own format (docs/scene-toml.md): all that a SceneDesc holds, the meshes,
+// scenes and textures that it names included. Errors and warnings as load_obj's.
+SceneDesc load_toml(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
+
+// The file beside an OBJ file that completes it with camera, lights, materials and more: `house.toml` beside
+// `house.obj`, else `scene.toml`. Empty if there is none, and for files of other formats.
+std::filesystem::path find_sidecar(const std::filesystem::path& path);
+
+// Reads by the name's extension (.obj, .nff, .ply, .toml), an OBJ file with its side-car. Throws UsageError
+// for an extension that is not known.
 SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // The box around all primitives of a scene that is still being made; empty if it has none.

@@ -3,6 +3,7 @@
 
 #include <fastrt/aov.hpp>
 #include <fastrt/camera.hpp>
+#include <fastrt/picture.hpp>
 #include <fastrt/tracer.hpp>
 
 #include <atomic>
@@ -12,11 +13,6 @@
 #include <vector>
 
 namespace fastrt {
-
-// How the samples of a pixel are spread and weighed: over the pixel's own square; as a tent two pixels wide;
-// as a bell (deviation 0.5 pixels, cut off at 1.5); or as Mitchell & Netravali's with B = C = 1/3, which
-// sharpens.
-enum class PixelFilter { box, tent, gaussian, mitchell };
 
 // Columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of a picture.
 struct Crop {

@@ -6,6 +6,7 @@
 #include <fastrt/light.hpp>
 #include <fastrt/material.hpp>
 #include <fastrt/math.hpp>
+#include <fastrt/picture.hpp>
 #include <fastrt/texture.hpp>
 
 #include <array>
@@ -127,6 +128,7 @@ struct SceneDesc {
   // What a scene file says of the picture to be made of it; Scene itself does not look at it.
   std::optional<Camera> camera;
   int width = 0, height = 0; // pixels; 0 where the file does not say
+  PictureSettings picture;
 };
 
 // The kinds of primitive, in the order in which they share the primitive ids.

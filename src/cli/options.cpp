@@ -66,14 +66,17 @@ StatsFormat stats_format(const std::string& text) {
 // Adds options whose values are read by the functions of parse.hpp; the last of several wins.
 class OptionAdder {
 public:
-  explicit OptionAdder(CLI::App& app) : app_(app) {}
+  OptionAdder(CLI::App& app, Options& options) : app_(app), given_(options.given) {}
 
   void group(std::string name) { group_ = std::move(name); }
 
   template <class Read>
   void value(const std::string& names, const char* placeholder, const char* help, Read read) {
     const std::string long_name = names.substr(names.find("--"));
-    const auto call = [long_name, read](const std::string& text) { read(long_name, text); };
+    const auto call = [this, long_name, read](const std::string& text) {
+      read(long_name, text);
+      given_.insert(long_name);
+    };
     app_.add_option_function<std::string>(names, call, help)
         ->option_text(placeholder)
         ->type_name("value")
@@ -89,6 +92,7 @@ public:
 
 private:
   CLI::App& app_;
+  std::set<std::string>& given_;
   std::string group_;
 };
 
@@ -110,7 +114,6 @@ void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::s
               const Resolution size = parse_resolution(name, text);
               options.width = size.width;
               options.height = size.height;
-              options.resolution_given = true;
             });
   add.value("--crop", "X0,Y0,X1,Y1", "Columns X0 to X1 - 1 and rows Y0 to Y1 - 1 of the picture alone",
             [&](const std::string& name, const std::string& text) { options.crop = parse_crop(name, text); });
@@ -121,7 +124,7 @@ void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::s
 }
 
 void add_sampling_options(OptionAdder& add, Options& options) {
-  add.group("Sampling");
+  add.group("Sampling (what is not given is the scene's, or as in brackets)");
   add.value("-s,--spp", "N", "Samples per pixel [1: the pixel's centre]",
             [&](const std::string& name, const std::string& text) {
               options.samples_per_pixel = static_cast<int>(parse_integer(name, text, 1, most_samples));
@@ -129,9 +132,9 @@ void add_sampling_options(OptionAdder& add, Options& options) {
   add.value(
       "--filter", "NAME", "How samples make a pixel: box, tent, gaussian or mitchell [tent]",
       [&](const std::string& name, const std::string& text) { options.filter = parse_filter(name, text); });
-  add.value("--adaptive", "T", "More samples where neighbours differ by more than T, 0 to 1",
+  add.value("--adaptive", "T", "More samples where neighbours differ by more than T, 0 to 1 [0: off]",
             [&](const std::string& name, const std::string& text) {
-              options.adaptive = parse_length(name, text);
+              options.adaptive = text == "0" ? 0 : parse_length(name, text);
               if (options.adaptive > 1) throw UsageError(name + ": '" + text + "' is greater than 1");
             });
   add.value("--max-spp", "N", "How many those may get [16 times --spp]",
@@ -167,14 +170,10 @@ void add_view_options(OptionAdder& add, Options& options) {
     options.look_at = parse_vector(name, text);
   });
   add.value("--up", "X,Y,Z", "Which way is up [0,1,0]",
-            [&](const std::string& name, const std::string& text) {
-              options.up = parse_vector(name, text);
-              options.up_given = true;
-            });
+            [&](const std::string& name, const std::string& text) { options.up = parse_vector(name, text); });
   add.value("--fov", "DEG", "Vertical field of view in degrees [40]",
             [&](const std::string& name, const std::string& text) {
               options.fov_degrees = parse_number(name, text);
-              options.fov_given = true;
               if (options.fov_degrees <= 0 || options.fov_degrees >= 180) {
                 throw UsageError(name + ": '" + text + "' is not an angle between 0 and 180");
               }
@@ -203,17 +202,12 @@ void add_view_options(OptionAdder& add, Options& options) {
 }
 
 // What options ask for together.
-void check_together(Options& options) {
-  if (options.resolution_given) check_crop(options);
+void check_together(const Options& options) {
+  if (options.given.contains("--resolution")) check_crop(options);
   if (options.orthographic && options.aperture_radius > 0)
     throw UsageError("--aperture: parallel rays go through no lens");
   if (options.most_samples != 0 && options.most_samples < options.samples_per_pixel)
     throw UsageError("--max-spp: less than --spp");
-  if (options.most_samples != 0 && options.adaptive == 0)
-    options.warnings.emplace_back("--max-spp says nothing without --adaptive");
-  if (options.aperture_radius > 0 && options.samples_per_pixel == 1 && options.adaptive == 0)
-    options.warnings.emplace_back("--aperture: one sample a pixel goes through the middle of the lens; give "
-                                  "--spp");
 }
 
 void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
@@ -259,8 +253,9 @@ void add_input_options(OptionAdder& add, Options& options) {
   add.group("Input");
   add.flag("--strict", options.strict, true, "Take warnings about the scene for errors");
   add.flag("--allow-external-files", options.allow_external_files, true,
-           "Read material files from outside the scene's folder");
+           "Read files that the scene names outside its folder");
   add.flag("--tr-is-opacity", options.tr_is_opacity, true, "In MTL files, Tr 1 means opaque");
+  add.flag("--no-sidecar", options.sidecar, false, "Leave a MODEL.toml or scene.toml beside MODEL.obj alone");
 }
 
 void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::string& stats) {
@@ -283,17 +278,18 @@ void check_crop(const Options& options) {
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  CLI::App app("Ray traces a 3D model (Wavefront OBJ, NFF, PLY) and writes the picture.", "fastrt");
+  CLI::App app("Ray traces a 3D model (Wavefront OBJ, NFF, PLY, scene.toml) and writes the picture.",
+               "fastrt");
   app.get_formatter()->column_width(34);
   app.get_formatter()->label("OPTIONS", "options");
   app.get_formatter()->label("Positionals", "Scene");
   app.footer(examples);
   app.add_option("scene", options.scene,
-                 "The scene: an .obj, .nff or .ply file; after '--' its name may begin with '-'")
+                 "The scene: an .obj, .nff, .ply or .toml file; after '--' its name may begin with '-'")
       ->option_text("FILE")
       ->required();
   app.set_help_flag();
-  OptionAdder add(app);
+  OptionAdder add(app, options);
   std::string signature;
   add_image_options(app, add, options, signature);
   add_sampling_options(add, options);

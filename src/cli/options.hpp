@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,8 @@ struct Options {
   int max_depth = 8;
   float min_contribution = 1.0F / 256;
 
-  // Whether these were asked for: a scene file may say otherwise.
-  bool resolution_given = false, up_given = false, fov_given = false;
+  // The options that were given, by their long names: of the others a scene file may say what they are.
+  std::set<std::string> given;
   std::optional<Vec3> eye, look_at;
   Vec3 up{0.0F, 1.0F, 0.0F};
   float fov_degrees = 40.0F;
@@ -53,6 +54,7 @@ struct Options {
   bool strict = false;
   bool allow_external_files = false;
   bool tr_is_opacity = false;
+  bool sidecar = true;
 
   bool quiet = false;
   bool show_progress = true;

@@ -23,6 +23,7 @@ void print_line(std::string_view kind, std::string_view message) {
 
 void print_error(std::string_view message) { print_line("error", message); }
 void print_warning(std::string_view message) { print_line("warning", message); }
+void print_note(std::string_view message) { print_line("note", message); }
 
 void print_out(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {

@@ -5,6 +5,7 @@
 #include "src/cli/progress.hpp"
 #include "src/cli/report.hpp"
 #include "src/cli/save.hpp"
+#include "src/cli/scene_defaults.hpp"
 #include "src/cli/signals.hpp"
 #include "src/cli/stats.hpp"
 #include "src/scene/threads.hpp"
@@ -85,45 +86,6 @@ fs::path choose_output(const Options& options) {
   return path;
 }
 
-// The size of the picture is the command line's, else the scene's, else the default.
-void choose_resolution(const SceneDesc& desc, Options& options) {
-  if (options.resolution_given) return;
-  if (desc.width != 0 && desc.height != 0) {
-    options.width = desc.width;
-    options.height = desc.height;
-    check_image_size(options);
-  }
-  check_crop(options);
-}
-
-Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, options.fov_degrees, aspect, options.up);
-  if (options.eye) camera.eye = *options.eye;
-  if (options.look_at) camera.look_at = *options.look_at;
-  if (options.up_given) camera.up = options.up;
-  if (options.fov_given) camera.fov_degrees = options.fov_degrees;
-  camera.window = options.window;
-  camera.focal_distance = options.focal_distance;
-  camera.aperture_radius = options.aperture_radius;
-  camera.focus_distance = options.focus_distance;
-  if (options.orthographic) {
-    camera.projection = Projection::orthographic;
-    camera.view_height =
-        options.view_height ? *options.view_height : orthographic_height(bounds, camera, aspect);
-  }
-  // Throws for a view that makes no sense, before the long work.
-  make_camera_frame(camera, options.width, options.height);
-  return camera;
-}
-
-void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
-  if (desc.lights.empty()) add_default_lights(desc, bounds, camera);
-  if (!options.lights.empty()) desc.lights = options.lights;
-  if (options.ambient) desc.ambient = *options.ambient;
-  if (options.background) desc.background = *options.background;
-}
-
 RenderSettings render_settings(const Options& options, int threads) {
   RenderSettings settings;
   settings.width = options.width;
@@ -200,10 +162,14 @@ SceneDesc read_scene(const Options& options, int threads) {
   load.strict = options.strict;
   load.allow_external_files = options.allow_external_files;
   load.tr_is_opacity = options.tr_is_opacity;
+  load.sidecar = options.sidecar;
   std::error_code error;
   if (fs::is_directory(options.scene, error)) {
     throw InputError("cannot read '" + options.scene + "': it is a folder");
   }
+  const fs::path sidecar = options.sidecar ? find_sidecar(options.scene) : fs::path();
+  if (!sidecar.empty() && !options.quiet)
+    print_note("'" + sidecar.string() + "' beside the scene is used too (--no-sidecar: it is not)");
   Diagnostics diagnostics;
   SceneDesc desc = load_scene(options.scene, load, diagnostics);
   for (const std::string& line : diagnostics.lines()) warn(options, line);
@@ -234,7 +200,10 @@ int run(const Options& given, Clock::time_point start) {
   Clock::time_point phase_start = Clock::now();
   SceneDesc desc = read_scene(options, stats.threads);
   const Aabb bounds = bounds_of(desc);
-  choose_resolution(desc, options);
+  take_picture_settings(desc, options);
+  for (const std::string& warning : sampling_warnings(options)) warn(options, warning);
+  check_image_size(options);
+  check_crop(options);
   const Camera camera = choose_camera(options, bounds, desc);
   choose_lights(options, bounds, camera, desc);
   stats.read_seconds = seconds_since(phase_start);

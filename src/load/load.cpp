@@ -4,10 +4,13 @@
 #include "src/load/obj_reader.hpp"
 #include "src/load/ply_reader.hpp"
 #include "src/load/text.hpp"
+#include "src/load/toml_reader.hpp"
 #include "src/scene/threads.hpp"
 
 #include <fastrt/error.hpp>
 #include <fastrt/load.hpp>
+
+#include <system_error>
 
 namespace fastrt {
 
@@ -37,14 +40,35 @@ SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options
   return desc;
 }
 
+SceneDesc load_toml(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  SceneDesc desc;
+  read_toml(path, options, diagnostics, desc);
+  return desc;
+}
+
+std::filesystem::path find_sidecar(const std::filesystem::path& path) {
+  if (lower_case(path.extension().string()) != ".obj") return {};
+  std::error_code error;
+  for (const std::filesystem::path& candidate :
+       {std::filesystem::path(path).replace_extension(".toml"), path.parent_path() / "scene.toml"})
+    if (std::filesystem::is_regular_file(candidate, error)) return candidate;
+  return {};
+}
+
 SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& options,
                      Diagnostics& diagnostics) {
   const std::string extension = lower_case(path.extension().string());
-  if (extension == ".obj") return load_obj(path, options, diagnostics);
+  if (extension == ".obj") {
+    SceneDesc desc = load_obj(path, options, diagnostics);
+    const std::filesystem::path sidecar = options.sidecar ? find_sidecar(path) : std::filesystem::path();
+    if (!sidecar.empty()) read_toml(sidecar, options, diagnostics, desc, path);
+    return desc;
+  }
+  if (extension == ".toml") return load_toml(path, options, diagnostics);
   if (extension == ".ply") return load_ply(path, options, diagnostics);
   if (extension == ".nff") return load_nff(path, options, diagnostics);
   throw UsageError("cannot tell the format of " + in_quotes(path.string()) +
-                   " by its name; known: .obj .nff .ply");
+                   " by its name; known: .obj .nff .ply .toml");
 }
 
 } // namespace fastrt

@@ -2,6 +2,7 @@
 // From the statements of MTL to the terms of a Whitted ray tracer.
 #include "src/load/mtl.hpp"
 #include "src/load/text.hpp"
+#include "src/load/texture_file.hpp"
 
 #include <glm/glm.hpp>
 
@@ -111,17 +112,6 @@ Texture texture_of(const MtlMap& map) {
   return texture;
 }
 
-// What a surface shows whose texture is missing.
-Texture missing_texture(const MtlMap& map) {
-  Texture texture;
-  texture.name = map.name;
-  texture.kind = TextureKind::checker;
-  texture.color_a = {1, 0, 1, 1};
-  texture.color_b = {0.25F, 0.25F, 0.25F, 1};
-  texture.scale = Vec2(8.0F);
-  return texture;
-}
-
 std::uint32_t add_texture(Texture texture, MaterialSet& materials) {
   materials.textures.push_back(std::move(texture));
   return static_cast<std::uint32_t>(materials.textures.size() - 1);
@@ -132,7 +122,7 @@ std::uint32_t add_map(const MtlMap& map, MaterialSet& materials) {
 }
 
 void set_textures(const MtlRecord& record, MaterialSet& materials, Material& m) {
-  m.diffuse_texture = record.map_kd.failed ? add_texture(missing_texture(record.map_kd), materials)
+  m.diffuse_texture = record.map_kd.failed ? add_texture(missing_texture(record.map_kd.name), materials)
                                            : add_map(record.map_kd, materials);
   m.ambient_texture = add_map(record.map_ka, materials);
   // A file without a map_Ka means its map_Kd for both.

@@ -111,4 +111,14 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
   }
 }
 
+Texture missing_texture(const std::string& name) {
+  Texture texture;
+  texture.name = name;
+  texture.kind = TextureKind::checker;
+  texture.color_a = {1, 0, 1, 1};
+  texture.color_b = {0.25F, 0.25F, 0.25F, 1};
+  texture.scale = Vec2(8.0F);
+  return texture;
+}
+
 } // namespace fastrt

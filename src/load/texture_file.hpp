@@ -24,4 +24,7 @@ struct TextureFile {
 // files alone. Throws nothing but std::bad_alloc.
 TextureFile read_texture(const std::filesystem::path& path, TextureCode code);
 
+// What a surface shows whose texture is missing: a checker of magenta and grey.
+Texture missing_texture(const std::string& name);
+
 } // namespace fastrt

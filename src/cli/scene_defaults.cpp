@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/cli/scene_defaults.hpp"
+
+#include <fastrt/load.hpp>
+
+#include <optional>
+
+namespace fastrt::cli {
+namespace {
+
+template <class T>
+void take(const Options& options, const char* name, const std::optional<T>& wish, T& target) {
+  if (wish && !options.given.contains(name)) target = *wish;
+}
+
+// What the picture shows. The last word is the command line's: --fov is of perspective cameras without a
+// window, --ortho of cameras without a lens.
+void choose_view(const Options& options, const Aabb& bounds, float aspect, Camera& camera) {
+  const auto given = [&](const char* name) { return options.given.contains(name); };
+  if (given("--fov")) {
+    camera.fov_degrees = options.fov_degrees;
+    camera.projection = Projection::perspective;
+  }
+  if (given("--fov") || given("--ortho")) camera.window.reset();
+  if (given("--window")) camera.window = options.window;
+  if (given("--focal")) camera.focal_distance = options.focal_distance;
+  if (given("--aperture")) camera.aperture_radius = options.aperture_radius;
+  if (given("--focus")) camera.focus_distance = options.focus_distance;
+  if (!options.orthographic) return;
+  camera.projection = Projection::orthographic;
+  camera.aperture_radius = 0;
+  camera.view_height =
+      options.view_height ? *options.view_height : orthographic_height(bounds, camera, aspect);
+}
+
+} // namespace
+
+void take_picture_settings(const SceneDesc& desc, Options& options) {
+  if (!options.given.contains("--resolution") && desc.width != 0 && desc.height != 0) {
+    options.width = desc.width;
+    options.height = desc.height;
+  }
+  const PictureSettings& picture = desc.picture;
+  take(options, "--spp", picture.samples_per_pixel, options.samples_per_pixel);
+  take(options, "--filter", picture.filter, options.filter);
+  take(options, "--adaptive", picture.adaptive, options.adaptive);
+  take(options, "--seed", picture.seed, options.seed);
+  take(options, "--max-depth", picture.max_depth, options.max_depth);
+  take(options, "--min-contribution", picture.min_contribution, options.min_contribution);
+  take(options, "--light-samples", picture.light_samples, options.light_samples);
+  // Fewer than --spp make no sense: then the scene's number is forgotten.
+  if (picture.most_samples && *picture.most_samples >= options.samples_per_pixel)
+    take(options, "--max-spp", picture.most_samples, options.most_samples);
+}
+
+std::vector<std::string> sampling_warnings(const Options& options) {
+  std::vector<std::string> warnings;
+  if (options.given.contains("--max-spp") && options.adaptive == 0)
+    warnings.emplace_back("--max-spp says nothing without --adaptive");
+  if (options.aperture_radius > 0 && options.samples_per_pixel == 1 && options.adaptive == 0)
+    warnings.emplace_back("--aperture: one sample a pixel goes through the middle of the lens; give --spp");
+  return warnings;
+}
+
+Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, options.fov_degrees, aspect, options.up);
+  if (options.eye) camera.eye = *options.eye;
+  if (options.look_at) camera.look_at = *options.look_at;
+  if (options.given.contains("--up")) camera.up = options.up;
+  choose_view(options, bounds, aspect, camera);
+  // Throws for a view that makes no sense, before the long work.
+  make_camera_frame(camera, options.width, options.height);
+  return camera;
+}
+
+void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
+  if (desc.lights.empty()) add_default_lights(desc, bounds, camera);
+  if (!options.lights.empty()) desc.lights = options.lights;
+  if (options.ambient) desc.ambient = *options.ambient;
+  if (options.background) desc.background = *options.background;
+}
+
+} // namespace fastrt::cli

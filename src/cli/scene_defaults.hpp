@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene says of its picture, and what the command line says instead.
+#pragma once
+
+#include "src/cli/options.hpp"
+
+#include <fastrt/scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace fastrt::cli {
+
+// Gives options that were not given the scene's values.
+void take_picture_settings(const SceneDesc& desc, Options& options);
+
+// What options say for nothing, now that the scene's values are known.
+std::vector<std::string> sampling_warnings(const Options& options);
+
+// The scene's camera, or one that shows all of it, changed by the options. Throws InputError for a view that
+// makes no sense.
+Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc);
+
+// The scene's lights, or a key and a fill light, changed by the options.
+void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc);
+
+} // namespace fastrt::cli
