@@ -56,18 +56,24 @@ Ray shadow_ray(const Light& light, const Vec3& position, const Surface& surface,
   return ray;
 }
 
-// What is left of the light along a shadow ray: starts as 1, and every surface on the way takes its part.
-Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
+// What is left of the light along a shadow ray that starts in `media`: begins as 1, and every stretch through
+// a medium and every surface on the way take their parts. An endless stretch takes none: whatever surface
+// should have ended it is missing.
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media media) {
   if (!scene.has_transmission()) return finder.any(ray) ? Vec3(0.0F) : Vec3(1.0F);
+  const float length = std::sqrt(glm::dot(ray.direction, ray.direction));
   Vec3 left{1.0F};
   for (Hit hit = finder.closest(ray); hit.found(); hit = finder.closest(ray)) {
-    const auto primitive = static_cast<std::uint32_t>(hit.primitive);
-    const Material& material = scene.materials()[scene.material_of(primitive)];
+    const std::uint32_t index = scene.material_of(static_cast<std::uint32_t>(hit.primitive));
+    const Material& material = scene.materials()[index];
+    left = faded(left, scene.materials(), media, (hit.t - ray.t_min) * length);
     if (!is_transmissive(material)) return Vec3(0.0F);
     left = left * transmittance(material, opacity_at(scene, ray, hit));
     if (left == Vec3(0.0F)) return left;
+    if (!material.thin) media = media.crossed(index);
     ray.t_min = hit.t;
   }
+  if (ray.t_max < infinity) left = faded(left, scene.materials(), media, (ray.t_max - ray.t_min) * length);
   return left;
 }
 
@@ -99,9 +105,9 @@ public:
 
   const Finish& finish() const { return finish_; }
   // Adds what the light at `position` gives to `lit`. share: of one of a light's points; 0 of a light
-  // without a size.
-  void add(const Light& light, const Vec3& position, float share, Vec3& lit, RayCounts& rays,
-           Vec3& light_left) const;
+  // without a size. media: what its shadow ray starts in.
+  void add(const Light& light, const Vec3& position, float share, const Media& media, Vec3& lit,
+           RayCounts& rays, Vec3& light_left) const;
 
 private:
   const Scene& scene_;
@@ -111,8 +117,8 @@ private:
   Finish finish_;
 };
 
-void Lighting::add(const Light& light, const Vec3& position, float share, Vec3& lit, RayCounts& rays,
-                   Vec3& light_left) const {
+void Lighting::add(const Light& light, const Vec3& position, float share, const Media& media, Vec3& lit,
+                   RayCounts& rays, Vec3& light_left) const {
   const bool is_directional = light.kind == LightKind::directional;
   const bool is_spot = light.kind == LightKind::spot;
   const Vec3 way = is_directional ? -light.direction : position - surface_.point;
@@ -132,7 +138,7 @@ void Lighting::add(const Light& light, const Vec3& position, float share, Vec3& 
   Vec3 shadow{1.0F};
   if (light.casts_shadows) {
     ++rays.shadow;
-    shadow = let_through(scene_, finder_, shadow_ray(light, position, surface_, to_light));
+    shadow = let_through(scene_, finder_, shadow_ray(light, position, surface_, to_light), media);
     light_left = light_left + (share != 0.0F ? shadow * share : shadow);
   }
   lit = lit + (phong_model(material_, finish_, surface_, to_light, cos_n) * intensity) * shadow;
@@ -149,12 +155,15 @@ Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, 
   Vec3 lit = finish.ambient * scene.ambient();
   LightQuestion question = sampling.question;
   for (const Light& light : scene.lights()) {
+    const Media& media =
+        light.kind == LightKind::directional ? sampling.surface_media : sampling.light_media[question.light];
     if (shape_of(light) == LightShape::none) {
-      lighting.add(light, light.position, 0.0F, lit, rays, light_left);
+      lighting.add(light, light.position, 0.0F, media, lit, rays, light_left);
     } else {
       const float share = 1.0F / static_cast<float>(sampling.count);
       for (int i = 0; i < sampling.count; ++i)
-        lighting.add(light, point_of(light, question, i, sampling.count), share, lit, rays, light_left);
+        lighting.add(light, point_of(light, question, i, sampling.count), share, media, lit, rays,
+                     light_left);
     }
     ++question.light;
   }

@@ -10,6 +10,8 @@
 
 namespace fastrt {
 
+inline constexpr int max_media = 4; // media that a ray can be in at once
+
 // Four triangles, their vertices as columns: x of vertex v of triangle i is x[v][i]. Rows that are not used
 // hold NaN, which no comparison lets through, and the id -1.
 struct alignas(32) TriangleBlock {
@@ -105,6 +107,7 @@ struct LightRow {
   float constant, linear, quadratic;           // how it fades
   float axis[3], rim, inverse_width, exponent; // spots
   float half_axes[3][3];                       // of lights with a size
+  std::int32_t media[max_media]; // that its place is in, innermost first; -1: none. Of scenes that absorb.
 };
 
 // What shading needs beyond the geometry. Columns as in TriangleColumns and SphereColumns; the normal columns

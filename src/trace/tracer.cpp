@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/trace/tracer_parts.hpp"
+#include "src/trace/point_media.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -148,6 +148,7 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   parts.lights = light_rows(parts.scene);
   fill_geometry_view(parts, tree);
   fill_shading_view(parts);
+  place_lights_in_media(parts);
   if (parts.kernels == nullptr) parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings.threads);
 }
 
