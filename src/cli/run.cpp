@@ -117,9 +117,8 @@ Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc
   return camera;
 }
 
-void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
-  if (desc.lights.empty()) add_default_lights(desc, bounds, camera);
-  if (!options.lights.empty()) desc.lights = options.lights;
+void light_scene(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
+  choose_lights(options.lights, bounds, camera, desc);
   if (options.ambient) desc.ambient = *options.ambient;
   if (options.background) desc.background = *options.background;
 }
@@ -235,7 +234,7 @@ int run(const Options& given, Clock::time_point start) {
   const Aabb bounds = bounds_of(desc);
   choose_resolution(desc, options);
   const Camera camera = choose_camera(options, bounds, desc);
-  choose_lights(options, bounds, camera, desc);
+  light_scene(options, bounds, camera, desc);
   stats.read_seconds = seconds_since(phase_start);
 
   phase_start = Clock::now();

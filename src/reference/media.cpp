@@ -2,6 +2,7 @@
 #include "src/reference/media.hpp"
 
 #include "src/reference/shading.hpp"
+#include "src/scene/light_meshes.hpp"
 #include "src/scene/media_probe.hpp"
 
 namespace fastrt::reference {
@@ -86,9 +87,12 @@ Surroundings surroundings_of(const Scene& scene, const HitFinder& finder, const 
   const Vec3 middle = (camera.corner + (0.5F * static_cast<float>(width)) * camera.du) +
                       (0.5F * static_cast<float>(height)) * camera.dv;
   around.camera = media_around(scene, finder, camera.orthographic ? middle : camera.eye);
-  for (const Light& light : scene.lights())
-    around.lights.push_back(
-        light.kind == LightKind::directional ? Media() : media_around(scene, finder, light.position));
+  for (std::size_t i = 0; i < scene.lights().size(); ++i) {
+    const Light& light = scene.lights()[i];
+    const Vec3 place = light.kind == LightKind::mesh ? scene.light_meshes().lights[i].middle : light.position;
+    around.lights.push_back(light.kind == LightKind::directional ? Media()
+                                                                 : media_around(scene, finder, place));
+  }
   return around;
 }
 

@@ -3,9 +3,8 @@
 // "Shading").
 #pragma once
 
-#include "src/film/light_sampling.hpp"
+#include "src/trace/light_points.hpp"
 #include "src/trace/shadow_media.hpp"
-#include "src/trace/tile_places.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -60,60 +59,6 @@ FASTRT_INLINE void begin_local_light(const ShadingView& scene, std::uint32_t bit
   store3(local, s.local_r + i, s.local_g + i, s.local_b + i);
 }
 
-FASTRT_INLINE PathV load_position(const LightRow& light, const LightBatch& seen, int i) {
-  return light.shape != 0 ? load3<PathF>(seen.position_x + i, seen.position_y + i, seen.position_z + i)
-                          : broadcast3<PathF>(light.position);
-}
-
-// The points of a light with a size that sample `index` asks.
-static void place_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, int index,
-                        const TileScratch& scratch, LightBatch& out) noexcept {
-  const LightRow& light = job.scene->shading.lights[k];
-  for (int i = 0; i < rays.count; ++i) {
-    const int row = rays.pixel[i];
-    const bool mixed = scratch.row_count != 0;
-    const int pixel = mixed ? scratch.row_places[row] : row;
-    const int sample = mixed ? scratch.row_samples[row] : scratch.sample;
-    const LightQuestion question{static_cast<std::uint32_t>(picture_x(job, pixel)),
-                                 static_cast<std::uint32_t>(picture_y(job, pixel)),
-                                 static_cast<std::uint32_t>(sample),
-                                 static_cast<std::uint32_t>(rays.depth),
-                                 k,
-                                 job.seed};
-    const LightPlace place =
-        light_place(static_cast<LightShape>(light.shape), question, static_cast<std::uint32_t>(index),
-                    static_cast<std::uint32_t>(job.light_samples));
-    float* const out_axes[3] = {out.position_x, out.position_y, out.position_z};
-    for (int axis = 0; axis < 3; ++axis)
-      out_axes[axis][i] =
-          ((light.position[axis] + light.half_axes[0][axis] * place.x) + light.half_axes[1][axis] * place.y) +
-          light.half_axes[2][axis] * place.z;
-  }
-}
-
-// How strong a light that varies is at rays i ..; returns the lanes that lie in its cone.
-FASTRT_INLINE std::uint32_t light_strength(const LightRow& light, const PathV& way, const PathV& to_light,
-                                           float share, int i, LightBatch& out) {
-  const PathF zero(0.0F), one(1.0F);
-  const PathF d = sqrt(dot(way, way));
-  PathF strength = one / (PathF(light.constant) + d * (PathF(light.linear) + PathF(light.quadratic) * d));
-  std::uint32_t bits = ~0U;
-  if (light.spot != 0) {
-    const PathF x = dot(negate(to_light), broadcast3<PathF>(light.axis));
-    bits = to_bits(x > PathF(light.rim));
-    const PathF y = min((x - PathF(light.rim)) * PathF(light.inverse_width), one);
-    PathF soft = (y * y) * (PathF(3.0F) - PathF(2.0F) * y);
-    if (light.exponent != 0.0F) {
-      const PathF power = shared_pow<BatchOps<widest>>(x, PathF(light.exponent));
-      soft = soft * simd::select(x > zero, power, zero);
-    }
-    strength = strength * soft;
-  }
-  if (light.shape != 0) strength = strength * PathF(share);
-  strength.store_aligned(out.strength + i);
-  return bits;
-}
-
 // Direction and cosine of the light for rays i ..; returns the lanes that face it. share: of one of its
 // samples.
 FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch& s, std::uint32_t bits,
@@ -122,7 +67,10 @@ FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch
   if (light.directional == 0) {
     const PathV way = load_position(light, out, i) - load_point(s, i);
     to_light = normalize(way);
-    if (light.varies != 0) bits &= light_strength(light, way, to_light, share, i, out);
+    if (light.shape == static_cast<std::uint32_t>(LightShape::mesh))
+      mesh_strength(light, way, to_light, share, i, out);
+    else if (light.varies != 0)
+      bits &= light_strength(light, way, to_light, share, i, out);
   }
   const PathF zero(0.0F);
   const PathF cosine = dot(load_shading(s, i), to_light);
@@ -143,7 +91,10 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
     store3(broadcast3<PathF>(light.to_light), rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
     reach = PathF(__builtin_inff());
   } else {
-    const PathV position = load_position(light, seen, i);
+    PathV position = load_position(light, seen, i);
+    if (light.shape == static_cast<std::uint32_t>(LightShape::mesh))
+      position = position + load3<PathF>(seen.normal_x + i, seen.normal_y + i, seen.normal_z + i) *
+                                PathF(light.largest_coordinate * offset_share);
     const PathF offset = max(magnitude, PathF(light.largest_coordinate)) * PathF(offset_share);
     store3(position, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     store3((load_point(s, i) + normal * offset) - position, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
@@ -205,9 +156,13 @@ static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, cons
   }
 }
 
+// Points of a mesh of more triangles than this lie all around it, and shadow rays from them cross.
+inline constexpr std::uint32_t scattered_emitters = 16;
+
 // What reflected and refracted rays see is scattered: as one tile, each shadow ray would be shown what all
 // the others need, so those go as packets.
 FASTRT_INLINE BatchShape shadow_shape(const LightRow& light, int depth) {
+  if (light.emitter_count > scattered_emitters) return BatchShape::any;
   if (light.shape != 0 || depth != 0) return BatchShape::coherent;
   return light.directional != 0 ? BatchShape::parallel : BatchShape::common_origin;
 }

@@ -93,8 +93,14 @@ struct MaterialRow {
   float transmission[3];           // Kt
 };
 
+// A triangle of a light that is a mesh.
+struct EmitterRow {
+  float corners[3][3]; // xyz of each
+  float normal[3];     // unit, on either side
+};
+
 struct LightRow {
-  float position[3]; // point lights
+  float position[3]; // of lights that have one; of a mesh some point of it
   float to_light[3]; // directional lights: normalised
   float intensity[3];
   float largest_coordinate; // of the position
@@ -107,6 +113,10 @@ struct LightRow {
   float constant, linear, quadratic;           // how it fades
   float axis[3], rim, inverse_width, exponent; // spots
   float half_axes[3][3];                       // of lights with a size
+  const EmitterRow* emitters;                  // meshes
+  const std::uint32_t* emitter_begin;          // LightMesh::begin
+  std::uint32_t emitter_count;
+  float area_over_pi;
   std::int32_t media[max_media]; // that its place is in, innermost first; -1: none. Of scenes that absorb.
 };
 

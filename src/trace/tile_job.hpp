@@ -49,6 +49,7 @@ struct alignas(64) LightBatch {
   float strength[batch_size]; // of lights whose strength varies
   float position_x[batch_size], position_y[batch_size],
       position_z[batch_size]; // of lights with a size: the point asked
+  float normal_x[batch_size], normal_y[batch_size], normal_z[batch_size];    // of meshes: there
   float visible_r[batch_size], visible_g[batch_size], visible_b[batch_size]; // S
 };
 

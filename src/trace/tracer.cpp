@@ -145,7 +145,7 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   parts.nodes = std::move(tree.nodes);
   parts.textures = texture_rows(parts.scene);
   parts.materials = material_rows(parts.scene, parts.textures);
-  parts.lights = light_rows(parts.scene);
+  parts.lights = light_rows(parts.scene, parts.emitters);
   fill_geometry_view(parts, tree);
   fill_shading_view(parts);
   place_lights_in_media(parts);
