@@ -14,17 +14,19 @@ enum class LightKind : std::uint32_t {
   rectangle, // these have a size and cast soft shadows
   disk,
   sphere,
+  mesh, // all triangles of a material that emits light
 };
 
-// A light. It is not seen itself. Lights with a size light all around, each of their points like a point
-// light; RenderSettings::light_samples of them are asked.
+// A light. It is not seen itself, but for meshes. Lights with a size light all around, each of their points
+// like a point light; RenderSettings::light_samples of them are asked. A mesh's points light as those of a
+// matt surface do that shines Material::emission to both sides, so it needs no fall-off of its own.
 struct Light {
   LightKind kind = LightKind::point;
   Vec3 position{0.0F}; // world space; the middle of lights with a size; directional lights have none
   // Directional lights: the way the light travels. Spots: where they point. Disks: what they are square to.
   // Any length but 0.
   Vec3 direction{0.0F, -1.0F, 0.0F};
-  Vec3 intensity{1.0F}; // linear RGB
+  Vec3 intensity{1.0F}; // linear RGB; of meshes what multiplies their emission
   bool casts_shadows = true;
   Vec3 ambient{0.0F}; // what it adds to the scene's ambient light, everywhere
 
@@ -38,6 +40,7 @@ struct Light {
 
   Vec3 half_u{0.5F, 0.0F, 0.0F}, half_v{0.0F, 0.0F, 0.5F}; // rectangles: from the middle to two sides
   float radius = 0.5F;                                     // disks and spheres
+  std::uint32_t material = 0;                              // meshes: index of SceneDesc::materials
 };
 
 } // namespace fastrt

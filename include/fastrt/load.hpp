@@ -6,6 +6,7 @@
 #include <fastrt/scene.hpp>
 
 #include <filesystem>
+#include <vector>
 
 namespace fastrt {
 
@@ -55,5 +56,9 @@ float orthographic_height(const Aabb& bounds, const Camera& camera, float aspect
 // Light for a scene that has none: a key light with shadows, a soft fill from the camera's side without, and
 // ambient.
 void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camera);
+
+// The lights that a scene's own surfaces are: one of LightKind::mesh for each material of some triangle that
+// emits more than `brighter_than` in some channel. Materials whose emission is a texture are left out.
+std::vector<Light> emissive_lights(const SceneDesc& desc, float brighter_than = 0);
 
 } // namespace fastrt

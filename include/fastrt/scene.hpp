@@ -135,7 +135,8 @@ struct SceneDesc {
 enum class PrimitiveKind : std::uint32_t { triangle, sphere, cone, disk, polygon, plane };
 inline constexpr std::size_t primitive_kinds = 6;
 
-struct SceneShapes; // of the library alone
+struct SceneShapes; // of the library alone, as LightMeshes
+struct LightMeshes;
 
 // An immutable scene. Primitive ids run from 0: first all triangles, then all spheres and so on in the order
 // of PrimitiveKind, each in the order given; those of prototypes too.
@@ -183,11 +184,13 @@ public:
   std::size_t bytes() const noexcept;
 
   const SceneShapes& shapes() const noexcept { return *shapes_; } // of the library alone
+  const LightMeshes& light_meshes() const noexcept { return *light_meshes_; }
 
 private:
   SceneDesc desc_;
   std::array<std::uint32_t, primitive_kinds + 1> first_{}; // ids
   std::shared_ptr<const SceneShapes> shapes_;
+  std::shared_ptr<const LightMeshes> light_meshes_;
   Aabb bounds_;
   bool has_transmission_ = false;
 };

@@ -210,19 +210,24 @@ void check_together(const Options& options) {
     throw UsageError("--max-spp: less than --spp");
 }
 
+constexpr const char* light_group =
+    "Light (without --light: the scene's, or its lamps, or a key light and a fill light)";
+
 void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
-  add.group("Light (without --light: the scene's, or a key light and a fill light)");
+  add.group(light_group);
   app.add_option_function<std::vector<std::string>>(
          "--light",
          [&options](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) options.lights.push_back(parse_light("--light", text));
+           for (const std::string& text : texts)
+             options.lights.push_back(parse_light_option("--light", text));
          },
-         "point:X,Y,Z or dir:X,Y,Z, then [:R,G,B]; spot, rect, disk, sphere: see README; may be repeated")
+         "point:X,Y,Z or dir:X,Y,Z, then [:R,G,B]; spot, rect, disk, sphere, mesh, emissive, default: see "
+         "README; may be repeated")
       ->option_text("LIGHT")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Light (without --light: the scene's, or a key light and a fill light)");
+      ->group(light_group);
   add.value("--light-samples", "N", "Shadow rays to each light with a size [16]",
             [&](const std::string& name, const std::string& text) {
               options.light_samples = static_cast<int>(parse_integer(name, text, 1, 1024));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "src/cli/light_option.hpp"
+
 #include <fastrt/camera.hpp>
-#include <fastrt/light.hpp>
 #include <fastrt/math.hpp>
 #include <fastrt/render.hpp>
 
@@ -44,7 +45,7 @@ struct Options {
   std::optional<float> view_height; // of an orthographic camera; empty: shows the whole scene
   std::optional<Window> window;
   float focal_distance = 1, aperture_radius = 0, focus_distance = 0;
-  std::vector<Light> lights;
+  std::vector<LightOption> lights;
   int light_samples = 16;
   std::optional<Vec3> ambient, background;
 

@@ -205,7 +205,7 @@ int run(const Options& given, Clock::time_point start) {
   check_image_size(options);
   check_crop(options);
   const Camera camera = choose_camera(options, bounds, desc);
-  choose_lights(options, bounds, camera, desc);
+  light_scene(options, bounds, camera, desc);
   stats.read_seconds = seconds_since(phase_start);
 
   phase_start = Clock::now();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/scene_defaults.hpp"
 
+#include "src/cli/light_option.hpp"
+
 #include <fastrt/load.hpp>
 
 #include <optional>
@@ -74,9 +76,8 @@ Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc
   return camera;
 }
 
-void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
-  if (desc.lights.empty()) add_default_lights(desc, bounds, camera);
-  if (!options.lights.empty()) desc.lights = options.lights;
+void light_scene(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
+  choose_lights(options.lights, bounds, camera, desc);
   if (options.ambient) desc.ambient = *options.ambient;
   if (options.background) desc.background = *options.background;
 }

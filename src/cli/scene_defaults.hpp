@@ -22,6 +22,6 @@ std::vector<std::string> sampling_warnings(const Options& options);
 Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc);
 
 // The scene's lights, or a key and a fill light, changed by the options.
-void choose_lights(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc);
+void light_scene(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc);
 
 } // namespace fastrt::cli

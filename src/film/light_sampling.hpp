@@ -8,7 +8,7 @@
 
 namespace fastrt {
 
-enum class LightShape : std::uint32_t { none, rectangle, disk, sphere };
+enum class LightShape : std::uint32_t { none, rectangle, disk, sphere, mesh };
 
 // Which point of a picture asks.
 struct LightQuestion {
@@ -24,18 +24,28 @@ struct LightPlace {
   float x, y, z;
 };
 
+// A point of the unit square, in units of 2^-32.
+struct LightBits {
+  std::uint32_t u, v;
+};
+
 // Sample `index` of `count`: a Hammersley set, shifted at random (Cranley & Patterson 1976), so that every
-// row and column of a count-fold grid on the light holds one.
-[[gnu::always_inline]] static inline LightPlace light_place(LightShape shape, const LightQuestion& question,
-                                                            std::uint32_t index, std::uint32_t count) {
+// row and column of a count-fold grid holds one.
+[[gnu::always_inline]] static inline LightBits light_bits(const LightQuestion& question, std::uint32_t index,
+                                                          std::uint32_t count) {
   const std::uint32_t at = hash32(question.x + hash32(question.y + hash32(question.sample)));
   const std::uint32_t key =
       hash32(at + hash32(question.light + hash32(question.depth + hash32(question.seed))));
   const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
-  const std::uint32_t u_bits = stratum + key;
-  const std::uint32_t v_bits = reverse_bits(index) + hash32(key);
-  const float a = static_cast<float>(static_cast<std::int32_t>(u_bits >> 8U)) * 0x1p-23F - 1.0F;
-  const float b = static_cast<float>(static_cast<std::int32_t>(v_bits >> 8U)) * 0x1p-23F - 1.0F;
+  return {stratum + key, reverse_bits(index) + hash32(key)};
+}
+
+// Sample `index` of `count` on a light of a shape that is not a mesh.
+[[gnu::always_inline]] static inline LightPlace light_place(LightShape shape, const LightQuestion& question,
+                                                            std::uint32_t index, std::uint32_t count) {
+  const LightBits bits = light_bits(question, index, count);
+  const float a = static_cast<float>(static_cast<std::int32_t>(bits.u >> 8U)) * 0x1p-23F - 1.0F;
+  const float b = static_cast<float>(static_cast<std::int32_t>(bits.v >> 8U)) * 0x1p-23F - 1.0F;
   if (shape == LightShape::rectangle) return {a, b, 0.0F};
   const SampleOffset disk = disk_point(a, b);
   if (shape == LightShape::disk) return {disk.x, disk.y, 0.0F};
@@ -44,6 +54,36 @@ struct LightPlace {
   const float left = 1.0F - r2;
   const float scale = 2.0F * __builtin_sqrtf(left > 0.0F ? left : 0.0F);
   return {disk.x * scale, disk.y * scale, 1.0F - 2.0F * r2};
+}
+
+// A point of a mesh: one of its triangles, and the weights of the corners.
+struct MeshPlace {
+  std::uint32_t triangle;
+  float a, b, c;
+};
+
+// Sample `index` of `count` on `triangles` triangles, of which number i is chosen by the numbers from
+// begin[i] up to begin[i + 1]. What is left of the number that chose the triangle is spread out again and
+// says where in it, so that strata of the mesh are strata of each triangle.
+[[gnu::always_inline]] static inline MeshPlace mesh_place(const std::uint32_t* begin, std::uint32_t triangles,
+                                                          const LightQuestion& question, std::uint32_t index,
+                                                          std::uint32_t count) {
+  const LightBits bits = light_bits(question, index, count);
+  std::uint32_t chosen = 0;
+  for (std::uint32_t end = triangles; end - chosen > 1;) {
+    const std::uint32_t middle = chosen + (end - chosen) / 2;
+    if (begin[middle] <= bits.u)
+      chosen = middle;
+    else
+      end = middle;
+  }
+  const std::uint64_t all = std::uint64_t{1} << 32U;
+  const std::uint64_t share = (chosen + 1 < triangles ? begin[chosen + 1] : all) - begin[chosen];
+  const auto rest =
+      static_cast<std::uint32_t>((static_cast<std::uint64_t>(bits.u - begin[chosen]) << 32U) / share);
+  const float root = __builtin_sqrtf(static_cast<float>(static_cast<std::int32_t>(rest >> 8U)) * 0x1p-24F);
+  const float along = static_cast<float>(static_cast<std::int32_t>(bits.v >> 8U)) * 0x1p-24F;
+  return {chosen, 1.0F - root, root * (1.0F - along), root * along};
 }
 
 } // namespace fastrt

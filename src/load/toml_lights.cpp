@@ -22,7 +22,8 @@ const std::vector<LightRow>& light_rows() {
       {"spot", LightKind::spot, {"position", "direction"}, {"fade", "cone", "penumbra", "exponent"}},
       {"rectangle", LightKind::rectangle, {"position", "u", "v"}, {"fade"}},
       {"disk", LightKind::disk, {"position", "direction", "radius"}, {"fade"}},
-      {"sphere", LightKind::sphere, {"position", "radius"}, {"fade"}}};
+      {"sphere", LightKind::sphere, {"position", "radius"}, {"fade"}},
+      {"mesh", LightKind::mesh, {"material"}, {}}};
   return rows;
 }
 
@@ -77,6 +78,7 @@ void read_toml_light(const TomlFile& file, const TomlNode& node, TomlScene& scen
   Light light;
   light.kind = row.kind;
   read_values(fields, light);
+  if (const auto material = fields.find("material")) light.material = scene.material(*material);
   scene.desc.lights.push_back(light);
 }
 

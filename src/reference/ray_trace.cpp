@@ -18,15 +18,6 @@ struct Node {
   Media media;
 };
 
-// Light that went through a medium on its way faded.
-Vec3 faded(const Vec3& weight, const std::vector<Material>& materials, const Media& media, float distance) {
-  if (media.empty()) return weight;
-  const Vec3& sigma = materials[media.innermost()].absorption;
-  if (sigma == Vec3(0.0F)) return weight;
-  return {weight.x * shared_exp(-(sigma.x * distance)), weight.y * shared_exp(-(sigma.y * distance)),
-          weight.z * shared_exp(-(sigma.z * distance))};
-}
-
 // The next ray into `direction`, on the side of the surface that `offset` points to.
 Node child_of(const Node& parent, const Surface& surface, const Vec3& weight, const Vec3& direction,
               float offset, const Media& media) {
@@ -48,13 +39,14 @@ Node child_of(const Node& parent, const Surface& surface, const Vec3& weight, co
 // The lecture recurses. A stack gives the same order - the hit, all that its mirror shows, all that shines
 // through - and has no limit but memory: what is to be traced first is pushed last.
 Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, const RenderSettings& settings,
-               const LightQuestion& question, RayCounts& rays, Sight& sight) {
+               const Surroundings& around, const LightQuestion& question, RayCounts& rays, Sight& sight) {
   const auto worth_tracing = [&](const Vec3& weight) {
     return largest(weight) > 0.0F && largest(weight) >= settings.min_contribution;
   };
   Vec3 sum{0.0F};
   Node root;
   root.ray = ray;
+  root.media = around.camera;
   std::vector<Node> stack{root};
   while (!stack.empty()) {
     const Node node = stack.back();
@@ -69,7 +61,7 @@ Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, cons
 
     const Surface surface = surface_at(scene, node.ray, hit);
     const Vec3 weight = faded(node.weight, scene.materials(), node.media, surface.distance);
-    LightSampling sampling{question, settings.light_samples};
+    LightSampling sampling{question, settings.light_samples, node.media, around.lights};
     sampling.question.depth = static_cast<std::uint32_t>(node.depth);
     Vec3 light_left{0.0F};
     sum = sum + weight * shade(scene, finder, surface, sampling, rays, light_left);

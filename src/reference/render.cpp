@@ -23,6 +23,7 @@ struct Job {
   Filter filter;
   Crop part; // of the picture: the frame
   Footprint footprint;
+  Surroundings around;
 };
 
 // lens: a point of the unit disk.
@@ -58,7 +59,8 @@ Vec3 trace_center(const Job& job, int x, int y, RayCounts& rays, Sight& sight) {
   ++rays.primary;
   const Ray ray = camera_ray(job.camera, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F,
                              Vec2(0.0F), job.footprint);
-  return ray_trace(*job.scene, *job.finder, ray, *job.settings, question_of(job, x, y, 0), rays, sight);
+  return ray_trace(*job.scene, *job.finder, ray, *job.settings, job.around, question_of(job, x, y, 0), rays,
+                   sight);
 }
 
 Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sight& sight) {
@@ -71,7 +73,8 @@ Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sig
   ++rays.primary;
   const Ray ray = camera_ray(job.camera, (static_cast<float>(x) + 0.5F) + offset.x,
                              (static_cast<float>(y) + 0.5F) + offset.y, {lens.x, lens.y}, job.footprint);
-  return ray_trace(*job.scene, *job.finder, ray, *job.settings, question_of(job, x, y, sample), rays, sight);
+  return ray_trace(*job.scene, *job.finder, ray, *job.settings, job.around, question_of(job, x, y, sample),
+                   rays, sight);
 }
 
 std::size_t index_of(const Frame& frame, int x, int y) {
@@ -180,7 +183,8 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
                 camera_frame,
                 filter_of(settings.filter),
                 part,
-                camera_footprint(camera_frame, settings.samples_per_pixel)};
+                camera_footprint(camera_frame, settings.samples_per_pixel),
+                surroundings_of(scene, finder, camera_frame, settings.width, settings.height)};
   Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
   FrameProgress progress(settings, frame.height * (1 + most_rounds(settings)));
   if (settings.adaptive > 0.0F)

@@ -6,34 +6,6 @@
 
 namespace fastrt::reference {
 
-bool Media::holds(std::uint32_t material) const noexcept {
-  for (int i = 0; i < count_; ++i)
-    if (materials_[static_cast<std::size_t>(i)] == material) return true;
-  return false;
-}
-
-Media Media::crossed(std::uint32_t material) const noexcept {
-  Media result = *this;
-  for (int i = count_ - 1; i >= 0; --i) {
-    if (materials_[static_cast<std::size_t>(i)] != material) continue;
-    result.erase(i);
-    return result;
-  }
-  if (count_ == capacity) result.erase(0);
-  result.materials_[static_cast<std::size_t>(result.count_++)] = material;
-  return result;
-}
-
-void Media::erase(int index) noexcept {
-  --count_;
-  for (auto i = static_cast<std::size_t>(index); i < static_cast<std::size_t>(count_); ++i)
-    materials_[i] = materials_[i + 1];
-}
-
-float ior_of(const std::vector<Material>& materials, const Media& media) {
-  return media.empty() ? 1.0F : materials[media.innermost()].ior;
-}
-
 namespace {
 
 // A ray that crosses from index eta_i to eta_t; cos_i of the angle on its own side.

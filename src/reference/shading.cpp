@@ -3,6 +3,7 @@
 
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/textures.hpp"
+#include "src/scene/light_meshes.hpp"
 #include "src/scene/light_numbers.hpp"
 #include "src/simd/shared_math.hpp"
 
@@ -37,18 +38,31 @@ Vec3 phong_model(const Material& material, const Finish& finish, const Surface& 
 
 namespace {
 
+// A light, or one of the points of a light with a size.
+struct LightPoint {
+  Vec3 position{0.0F};
+  float share = 0; // of the light's points; 0 of a light without a size
+  const LightMesh* mesh = nullptr;
+  Vec3 normal{0.0F}; // of a mesh, on either side
+};
+
 // A point light's shadow ray comes from the light: rays from one origin share work elsewhere, and 0 < t < 1
-// is the way to the surface. A directional light's goes towards it, without end.
-// position: of the light, or of the point of it that is asked.
-Ray shadow_ray(const Light& light, const Vec3& position, const Surface& surface, const Vec3& to_light) {
+// is the way to the surface. That of a mesh starts off the mesh, on the surface's side. A directional light's
+// goes towards it, without end.
+Ray shadow_ray(const Light& light, const LightPoint& point, const Surface& surface, const Vec3& to_light) {
   Ray ray;
   ray.excluded = surface.planar;
   ray.excluded_instance = surface.instance;
   if (light.kind != LightKind::directional) {
-    const float offset = offset_for(max(surface.magnitude, light_magnitude(light) * surface.growth));
+    const float magnitude = point.mesh != nullptr ? point.mesh->magnitude : light_magnitude(light);
+    const float offset = offset_for(max(surface.magnitude, magnitude * surface.growth));
     const Vec3 end = surface.point + offset * surface.geometric_normal;
-    ray.origin = position;
-    ray.direction = end - position;
+    ray.origin = point.position;
+    if (point.mesh != nullptr) {
+      const Vec3 towards = glm::dot(point.normal, to_light) > 0.0F ? -point.normal : point.normal;
+      ray.origin = point.position + offset_for(magnitude) * towards;
+    }
+    ray.direction = end - ray.origin;
     ray.t_max = 1.0F;
   } else {
     ray.origin = surface.point + offset_for(surface.magnitude) * surface.geometric_normal;
@@ -57,27 +71,45 @@ Ray shadow_ray(const Light& light, const Vec3& position, const Surface& surface,
   return ray;
 }
 
-// What is left of the light along a shadow ray: starts as 1, and every surface on the way takes its part.
-Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
+// What is left of the light along a shadow ray that starts in `media`: begins as 1, and every stretch through
+// a medium and every surface on the way take their parts. An endless stretch takes none: whatever surface
+// should have ended it is missing.
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media media) {
   if (!scene.has_transmission()) return finder.any(ray) ? Vec3(0.0F) : Vec3(1.0F);
+  const float length = std::sqrt(glm::dot(ray.direction, ray.direction));
   Vec3 left{1.0F};
   for (Hit hit = finder.closest(ray); hit.found(); hit = finder.closest(ray)) {
-    const auto primitive = static_cast<std::uint32_t>(hit.primitive);
-    const Material& material = scene.materials()[scene.material_of(primitive, hit.instance)];
+    const std::uint32_t index = scene.material_of(static_cast<std::uint32_t>(hit.primitive), hit.instance);
+    const Material& material = scene.materials()[index];
+    left = faded(left, scene.materials(), media, (hit.t - ray.t_min) * length);
     if (!is_transmissive(material)) return Vec3(0.0F);
     left = left * transmittance(material, opacity_at(scene, ray, hit));
     if (left == Vec3(0.0F)) return left;
+    if (!material.thin) media = media.crossed(index);
     ray.t_min = hit.t;
   }
+  if (ray.t_max < infinity) left = faded(left, scene.materials(), media, (ray.t_max - ray.t_min) * length);
   return left;
 }
 
-// A point of a light with a size.
-Vec3 point_of(const Light& light, const LightQuestion& question, int index, int count) {
-  const LightAxes axes = light_axes(light);
-  const LightPlace place = light_place(shape_of(light), question, static_cast<std::uint32_t>(index),
-                                       static_cast<std::uint32_t>(count));
-  return ((light.position + place.x * axes.u) + place.y * axes.v) + place.z * axes.w;
+// A point of a light with a size. mesh: of a light that is one.
+LightPoint point_of(const Light& light, const LightMesh& mesh, const LightQuestion& question,
+                    std::uint32_t index, std::uint32_t count) {
+  LightPoint point;
+  point.share = 1.0F / static_cast<float>(count);
+  if (light.kind == LightKind::mesh) {
+    const MeshPlace place = mesh_place(mesh.begin.data(), static_cast<std::uint32_t>(mesh.triangles.size()),
+                                       question, index, count);
+    const EmitterTriangle& triangle = mesh.triangles[place.triangle];
+    point.mesh = &mesh;
+    point.normal = triangle.normal;
+    point.position = (place.a * triangle.a + place.b * triangle.b) + place.c * triangle.c;
+  } else {
+    const LightAxes axes = light_axes(light);
+    const LightPlace place = light_place(shape_of(light), question, index, count);
+    point.position = ((light.position + place.x * axes.u) + place.y * axes.v) + place.z * axes.w;
+  }
+  return point;
 }
 
 // How much of a spot light's intensity goes into a direction; 0 outside of its cone.
@@ -99,9 +131,8 @@ public:
         finish_(finish_of(material_, surface)) {}
 
   const Finish& finish() const { return finish_; }
-  // Adds what the light at `position` gives to `lit`. share: of one of a light's points; 0 of a light
-  // without a size.
-  void add(const Light& light, const Vec3& position, float share, Vec3& lit, RayCounts& rays,
+  // Adds what a light, or a point of it, gives to `lit`. media: what its shadow ray starts in.
+  void add(const Light& light, const LightPoint& point, const Media& media, Vec3& lit, RayCounts& rays,
            Vec3& light_left) const;
 
 private:
@@ -112,29 +143,36 @@ private:
   Finish finish_;
 };
 
-void Lighting::add(const Light& light, const Vec3& position, float share, Vec3& lit, RayCounts& rays,
-                   Vec3& light_left) const {
-  const bool is_directional = light.kind == LightKind::directional;
+// How much of a light's intensity comes from the point `way` away, in the unit direction `to_light`.
+float strength_of(const Light& light, const LightPoint& point, const Vec3& way, const Vec3& to_light) {
+  if (point.mesh != nullptr) {
+    const float cosine = std::fabs(glm::dot(point.normal, to_light));
+    return ((cosine * point.mesh->area_over_pi) / glm::dot(way, way)) * point.share;
+  }
+  const float d = std::sqrt(glm::dot(way, way));
+  float strength = 1.0F / (light.constant + d * (light.linear + light.quadratic * d));
+  if (light.kind == LightKind::spot) strength = strength * spot_share(light, to_light);
+  if (point.share != 0.0F) strength = strength * point.share;
+  return strength;
+}
+
+void Lighting::add(const Light& light, const LightPoint& point, const Media& media, Vec3& lit,
+                   RayCounts& rays, Vec3& light_left) const {
   const bool is_spot = light.kind == LightKind::spot;
-  const Vec3 way = is_directional ? -light.direction : position - surface_.point;
+  const Vec3 way = light.kind == LightKind::directional ? -light.direction : point.position - surface_.point;
   const Vec3 to_light = glm::normalize(way);
   const float cos_g = glm::dot(surface_.geometric_normal, to_light);
   const float cos_n = glm::dot(surface_.shading_normal, to_light);
   if (!(cos_g > 0.0F && cos_n > 0.0F)) return;
-  Vec3 intensity = light.intensity;
-  if (is_spot || share != 0.0F || fades(light)) {
-    const float d = std::sqrt(glm::dot(way, way));
-    float strength = 1.0F / (light.constant + d * (light.linear + light.quadratic * d));
-    if (is_spot && !(glm::dot(-to_light, spot_cone(light).axis) > spot_cone(light).rim)) return;
-    if (is_spot) strength = strength * spot_share(light, to_light);
-    if (share != 0.0F) strength = strength * share;
-    intensity = intensity * strength;
-  }
+  if (is_spot && !(glm::dot(-to_light, spot_cone(light).axis) > spot_cone(light).rim)) return;
+  Vec3 intensity = point.mesh != nullptr ? point.mesh->radiance : light.intensity;
+  if (is_spot || point.share != 0.0F || fades(light))
+    intensity = intensity * strength_of(light, point, way, to_light);
   Vec3 shadow{1.0F};
   if (light.casts_shadows) {
     ++rays.shadow;
-    shadow = let_through(scene_, finder_, shadow_ray(light, position, surface_, to_light));
-    light_left = light_left + (share != 0.0F ? shadow * share : shadow);
+    shadow = let_through(scene_, finder_, shadow_ray(light, point, surface_, to_light), media);
+    light_left = light_left + (point.share != 0.0F ? shadow * point.share : shadow);
   }
   lit = lit + (phong_model(material_, finish_, surface_, to_light, cos_n) * intensity) * shadow;
 }
@@ -150,12 +188,17 @@ Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, 
   Vec3 lit = finish.ambient * scene.ambient();
   LightQuestion question = sampling.question;
   for (const Light& light : scene.lights()) {
+    const Media& media =
+        light.kind == LightKind::directional ? sampling.surface_media : sampling.light_media[question.light];
     if (shape_of(light) == LightShape::none) {
-      lighting.add(light, light.position, 0.0F, lit, rays, light_left);
+      LightPoint point;
+      point.position = light.position;
+      lighting.add(light, point, media, lit, rays, light_left);
     } else {
-      const float share = 1.0F / static_cast<float>(sampling.count);
-      for (int i = 0; i < sampling.count; ++i)
-        lighting.add(light, point_of(light, question, i, sampling.count), share, lit, rays, light_left);
+      const auto count = static_cast<std::uint32_t>(sampling.count);
+      const LightMesh& mesh = scene.light_meshes().lights[question.light];
+      for (std::uint32_t i = 0; i < count; ++i)
+        lighting.add(light, point_of(light, mesh, question, i, count), media, lit, rays, light_left);
     }
     ++question.light;
   }

@@ -3,10 +3,13 @@
 
 #include "src/film/light_sampling.hpp"
 #include "src/reference/hit_finder.hpp"
+#include "src/reference/media.hpp"
 #include "src/reference/surface.hpp"
 
 #include <fastrt/render.hpp>
 #include <fastrt/scene.hpp>
+
+#include <vector>
 
 namespace fastrt::reference {
 
@@ -25,10 +28,12 @@ bool is_transmissive(const Material& material);
 Vec3 phong_model(const Material& material, const Finish& finish, const Surface& surface, const Vec3& to_light,
                  float cos_n);
 
-// Which points of lights with a size are asked.
+// Which points of lights with a size are asked, and what shadow rays start in.
 struct LightSampling {
-  LightQuestion question; // about light 0
-  int count = 1;          // points of each
+  LightQuestion question;                // about light 0
+  int count;                             // points of each
+  const Media& surface_media;            // of the ray that found the surface
+  const std::vector<Media>& light_media; // of each light
 };
 
 // The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.

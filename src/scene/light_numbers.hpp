@@ -18,6 +18,8 @@ inline LightShape shape_of(const Light& light) {
     return LightShape::disk;
   case LightKind::sphere:
     return LightShape::sphere;
+  case LightKind::mesh:
+    return LightShape::mesh;
   default:
     return LightShape::none;
   }
@@ -28,13 +30,13 @@ inline bool fades(const Light& light) {
          (light.constant != 1.0F || light.linear != 0.0F || light.quadratic != 0.0F);
 }
 
-// The half axes of a light with a size; 0 for others.
+// The half axes of a light with a size; 0 for others, and for meshes.
 struct LightAxes {
   Vec3 u{0.0F}, v{0.0F}, w{0.0F};
 };
 LightAxes light_axes(const Light& light);
 
-// The largest |coordinate| of the box around a light.
+// The largest |coordinate| of the box around a light that is no mesh.
 inline float light_magnitude(const Light& light) {
   const LightAxes axes = light_axes(light);
   const Vec3 reach = glm::abs(light.position) + glm::abs(axes.u) + glm::abs(axes.v) + glm::abs(axes.w);

@@ -51,10 +51,22 @@ std::string size_fault(const Light& light) {
   return "";
 }
 
-std::string fault_of(const Light& light) {
+std::string mesh_fault(const SceneDesc& desc, const Light& light) {
+  if (light.material >= desc.materials.size())
+    return "it refers to material " + std::to_string(light.material) + ", but there are " +
+           std::to_string(desc.materials.size());
+  const Material& material = desc.materials[light.material];
+  const std::string name = "the material '" + printable(material.name) + "' ";
+  if (material.emission == Vec3(0.0F)) return name + "emits nothing (Ke)";
+  if (material.emission_texture != no_texture) return name + "has a texture of what it emits";
+  return {};
+}
+
+std::string fault_of(const SceneDesc& desc, const Light& light) {
   if (!is_colour(light.intensity)) return "the intensity must be finite and not negative";
-  if (light.kind > LightKind::sphere) return "the kind is not known";
+  if (light.kind > LightKind::mesh) return "the kind is not known";
   if (!is_colour(light.ambient)) return "the ambient part must be finite and not negative";
+  if (light.kind == LightKind::mesh) return mesh_fault(desc, light);
   const bool has_place = light.kind != LightKind::directional;
   const bool has_direction = !has_place || light.kind == LightKind::spot || light.kind == LightKind::disk;
   if (has_place && !is_finite(light.position)) return "the position must be finite";
@@ -81,7 +93,7 @@ void check_materials(const SceneDesc& desc) {
 
 void check_lights(const SceneDesc& desc) {
   for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-    const std::string fault = fault_of(desc.lights[i]);
+    const std::string fault = fault_of(desc, desc.lights[i]);
     if (!fault.empty()) throw InputError("light " + std::to_string(i) + ": " + fault);
   }
   if (!is_colour(desc.ambient)) throw InputError("the ambient light must be finite and not negative");

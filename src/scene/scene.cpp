@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/light_meshes.hpp"
 #include "src/scene/scene_check.hpp"
 #include "src/scene/shapes.hpp"
 
@@ -66,7 +67,7 @@ Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
   check_scene(desc_);
   for (Light& light : desc_.lights)
     if (light.kind != LightKind::point && light.kind != LightKind::rectangle &&
-        light.kind != LightKind::sphere)
+        light.kind != LightKind::sphere && light.kind != LightKind::mesh)
       tame_direction(light);
   has_transmission_ = std::any_of(desc_.materials.begin(), desc_.materials.end(), lets_light_through);
   const std::size_t counts[primitive_kinds] = {desc_.triangles.size(), desc_.spheres.size(),
@@ -75,6 +76,7 @@ Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind)
     first_[kind + 1] = first_[kind] + static_cast<std::uint32_t>(counts[kind]);
   shapes_ = std::make_shared<const SceneShapes>(make_shapes(desc_));
+  light_meshes_ = std::make_shared<const LightMeshes>(make_light_meshes(desc_));
   bounds_ = bounds_of(desc_);
 }
 
@@ -122,7 +124,7 @@ std::size_t Scene::bytes() const noexcept {
          bytes_of(g.vertex, g.vertex_end, g.contour_end, g.material, g.object) + bytes_of(p.point) +
          bytes_of(p.normal) + bytes_of(p.material, p.object) +
          bytes_of(i.prototype, i.to_world, i.material, i.object) +
-         desc_.prototypes.capacity() * sizeof(Prototype) + shapes_->bytes();
+         desc_.prototypes.capacity() * sizeof(Prototype) + shapes_->bytes() + light_meshes_->bytes();
 }
 
 } // namespace fastrt

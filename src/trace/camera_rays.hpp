@@ -81,7 +81,7 @@ FASTRT_INLINE void aim_rays(const TileJob& job, CameraKind kind, const SamplePla
     store3(broadcast3<CameraF>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
     Ints<widest>(-1).store_aligned(rays.exclude + i);
     CameraF(job.width).store_aligned(rays.width + i);
-    for (auto& medium : rays.media) Ints<widest>(-1).store_aligned(medium + i);
+    for (int k = 0; k < max_media; ++k) Ints<widest>(job.eye_media[k]).store_aligned(rays.media[k] + i);
   }
   rays.count = count;
   rays.shape = kind == CameraKind::lens           ? BatchShape::coherent

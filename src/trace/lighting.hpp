@@ -3,11 +3,8 @@
 // "Shading").
 #pragma once
 
-#include "src/film/light_sampling.hpp"
-#include "src/kernels/batch_queries.hpp"
-#include "src/simd/shared_math.hpp"
-#include "src/trace/textures.hpp"
-#include "src/trace/tile_places.hpp"
+#include "src/trace/light_points.hpp"
+#include "src/trace/shadow_media.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -62,60 +59,6 @@ FASTRT_INLINE void begin_local_light(const ShadingView& scene, std::uint32_t bit
   store3(local, s.local_r + i, s.local_g + i, s.local_b + i);
 }
 
-FASTRT_INLINE PathV load_position(const LightRow& light, const LightBatch& seen, int i) {
-  return light.shape != 0 ? load3<PathF>(seen.position_x + i, seen.position_y + i, seen.position_z + i)
-                          : broadcast3<PathF>(light.position);
-}
-
-// The points of a light with a size that sample `index` asks.
-static void place_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, int index,
-                        const TileScratch& scratch, LightBatch& out) noexcept {
-  const LightRow& light = job.scene->shading.lights[k];
-  for (int i = 0; i < rays.count; ++i) {
-    const int row = rays.pixel[i];
-    const bool mixed = scratch.row_count != 0;
-    const int pixel = mixed ? scratch.row_places[row] : row;
-    const int sample = mixed ? scratch.row_samples[row] : scratch.sample;
-    const LightQuestion question{static_cast<std::uint32_t>(picture_x(job, pixel)),
-                                 static_cast<std::uint32_t>(picture_y(job, pixel)),
-                                 static_cast<std::uint32_t>(sample),
-                                 static_cast<std::uint32_t>(rays.depth),
-                                 k,
-                                 job.seed};
-    const LightPlace place =
-        light_place(static_cast<LightShape>(light.shape), question, static_cast<std::uint32_t>(index),
-                    static_cast<std::uint32_t>(job.light_samples));
-    float* const out_axes[3] = {out.position_x, out.position_y, out.position_z};
-    for (int axis = 0; axis < 3; ++axis)
-      out_axes[axis][i] =
-          ((light.position[axis] + light.half_axes[0][axis] * place.x) + light.half_axes[1][axis] * place.y) +
-          light.half_axes[2][axis] * place.z;
-  }
-}
-
-// How strong a light that varies is at rays i ..; returns the lanes that lie in its cone.
-FASTRT_INLINE std::uint32_t light_strength(const LightRow& light, const PathV& way, const PathV& to_light,
-                                           float share, int i, LightBatch& out) {
-  const PathF zero(0.0F), one(1.0F);
-  const PathF d = sqrt(dot(way, way));
-  PathF strength = one / (PathF(light.constant) + d * (PathF(light.linear) + PathF(light.quadratic) * d));
-  std::uint32_t bits = ~0U;
-  if (light.spot != 0) {
-    const PathF x = dot(negate(to_light), broadcast3<PathF>(light.axis));
-    bits = to_bits(x > PathF(light.rim));
-    const PathF y = min((x - PathF(light.rim)) * PathF(light.inverse_width), one);
-    PathF soft = (y * y) * (PathF(3.0F) - PathF(2.0F) * y);
-    if (light.exponent != 0.0F) {
-      const PathF power = shared_pow<BatchOps<widest>>(x, PathF(light.exponent));
-      soft = soft * simd::select(x > zero, power, zero);
-    }
-    strength = strength * soft;
-  }
-  if (light.shape != 0) strength = strength * PathF(share);
-  strength.store_aligned(out.strength + i);
-  return bits;
-}
-
 // Direction and cosine of the light for rays i ..; returns the lanes that face it. share: of one of its
 // samples.
 FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch& s, std::uint32_t bits,
@@ -124,7 +67,10 @@ FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch
   if (light.directional == 0) {
     const PathV way = load_position(light, out, i) - load_point(s, i);
     to_light = normalize(way);
-    if (light.varies != 0) bits &= light_strength(light, way, to_light, share, i, out);
+    if (light.shape == static_cast<std::uint32_t>(LightShape::mesh))
+      mesh_strength(light, way, to_light, share, i, out);
+    else if (light.varies != 0)
+      bits &= light_strength(light, way, to_light, share, i, out);
   }
   const PathF zero(0.0F);
   const PathF cosine = dot(load_shading(s, i), to_light);
@@ -146,7 +92,10 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
     store3(broadcast3<PathF>(light.to_light), rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
     reach = PathF(__builtin_inff());
   } else {
-    const PathV position = load_position(light, seen, i);
+    PathV position = load_position(light, seen, i);
+    if (light.shape == static_cast<std::uint32_t>(LightShape::mesh))
+      position = position + load3<PathF>(seen.normal_x + i, seen.normal_y + i, seen.normal_z + i) *
+                                PathF(light.largest_coordinate * offset_share);
     PathF reached(light.largest_coordinate);
     if (instances) reached = reached * PathF::load_aligned(s.growth + i);
     const PathF offset = max(magnitude, reached) * PathF(offset_share);
@@ -158,59 +107,6 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
   simd::select(from_bits<widest>(bits), reach, none).store_aligned(rays.t_max + i);
   load<PathI>(s.planar + i).store_aligned(rays.exclude + i);
   if (instances) load<PathI>(s.planar_inner + i).store_aligned(rays.exclude_inner + i);
-}
-
-FASTRT_INLINE void store_visibility(const PathV& visible, int i, LightBatch& light) {
-  store3(visible, light.visible_r + i, light.visible_g + i, light.visible_b + i);
-}
-
-// Shadows where nothing is transparent: 0 or 1.
-FASTRT_INLINE void trace_opaque_shadows(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                                        LightBatch& light) {
-  find_any_hits(scene, rays, hits);
-  for (int i = 0; i < rays.count; i += widest) {
-    const PathM free = simd::bool_cast(PathI::load_aligned(hits.primitive + i) < PathI(0));
-    const PathF visible = simd::select(free, PathF(1.0F), PathF(0.0F));
-    store_visibility({visible, visible, visible}, i, light);
-  }
-}
-
-// One surface on the way of shadow ray i: takes what it holds back. Returns whether the ray goes on behind
-// it.
-FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
-                                LightBatch& light) {
-  const MaterialRow& row = scene.materials[material_of_hit(scene, hits, i)];
-  if (row.has_transmit == 0) {
-    light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
-    return false;
-  }
-  Row3 transmit{row.transmit[0], row.transmit[1], row.transmit[2]};
-  if (row.textures != nullptr && row.textures->opacity != nullptr)
-    transmit = transmit_at(scene, row, rays, hits, i);
-  light.visible_r[i] = light.visible_r[i] * transmit.x;
-  light.visible_g[i] = light.visible_g[i] * transmit.y;
-  light.visible_b[i] = light.visible_b[i] * transmit.z;
-  return light.visible_r[i] != 0.0F || light.visible_g[i] != 0.0F || light.visible_b[i] != 0.0F;
-}
-
-// Shadows through transparent surfaces: from surface to surface along each ray, in order of t.
-FASTRT_INLINE void trace_coloured_shadows(const SceneView& scene, RayBatch& rays, HitBatch& hits,
-                                          LightBatch& light) {
-  for (int i = 0; i < rays.count; i += widest)
-    store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, light);
-  bool going_on = true;
-  while (going_on) {
-    find_closest_hits(scene.geometry, rays, hits);
-    going_on = false;
-    for (int i = 0; i < rays.count; ++i) {
-      if (hits.primitive[i] >= 0 && pass_surface(scene.shading, rays, hits, i, light)) {
-        rays.t_min[i] = hits.t[i];
-        going_on = true;
-      } else {
-        rays.t_max[i] = rays.t_min[i]; // done
-      }
-    }
-  }
 }
 
 // L = L + ((Kd * cos + Ks * sp) * I) * S for the lanes in `bits`.
@@ -264,9 +160,13 @@ static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, cons
   }
 }
 
+// Points of a mesh of more triangles than this lie all around it, and shadow rays from them cross.
+inline constexpr std::uint32_t scattered_emitters = 16;
+
 // What reflected and refracted rays see is scattered: as one tile, each shadow ray would be shown what all
 // the others need, so those go as packets.
 FASTRT_INLINE BatchShape shadow_shape(const LightRow& light, int depth) {
+  if (light.emitter_count > scattered_emitters) return BatchShape::any;
   if (light.shape != 0 || depth != 0) return BatchShape::coherent;
   return light.directional != 0 ? BatchShape::parallel : BatchShape::common_origin;
 }
@@ -292,7 +192,11 @@ static std::uint64_t gather_one_light(const TileJob& job, const PathBatch& rays,
   if (light.casts_shadows != 0) {
     scratch.shadow.count = (rays.count + widest - 1) / widest * widest;
     scratch.shadow.shape = shadow_shape(light, rays.depth);
-    if (scene.shading.has_transmission != 0)
+    if (scene.shading.has_absorption != 0) {
+      std::uint32_t alive[batch_size / widest];
+      for (int i = 0; i < rays.count; i += widest) alive[i / widest] = lit[i / widest];
+      trace_fading_shadows(scene, light, rays, alive, scratch);
+    } else if (scene.shading.has_transmission != 0)
       trace_coloured_shadows(scene, scratch.shadow, scratch.shadow_hits, seen);
     else
       trace_opaque_shadows(scene.geometry, scratch.shadow, scratch.shadow_hits, seen);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/light_meshes.hpp"
 #include "src/scene/light_numbers.hpp"
 #include "src/trace/tracer_parts.hpp"
 
@@ -41,6 +42,54 @@ MaterialRow row_of(const Material& material) {
   return row;
 }
 
+EmitterRow row_of(const EmitterTriangle& triangle) {
+  EmitterRow row{};
+  copy(triangle.a, row.corners[0]);
+  copy(triangle.b, row.corners[1]);
+  copy(triangle.c, row.corners[2]);
+  copy(triangle.normal, row.normal);
+  return row;
+}
+
+void fill_mesh(const LightMesh& mesh, const EmitterRow* emitters, LightRow& row) {
+  copy(mesh.middle, row.position);
+  copy(mesh.radiance, row.intensity);
+  row.largest_coordinate = mesh.magnitude;
+  row.area_over_pi = mesh.area_over_pi;
+  row.emitters = emitters;
+  row.emitter_begin = mesh.begin.data();
+  row.emitter_count = static_cast<std::uint32_t>(mesh.triangles.size());
+}
+
+// The numbers of a light that is no mesh.
+LightRow row_of(const Light& light) {
+  LightRow row{};
+  copy(light.position, row.position);
+  copy(light.intensity, row.intensity);
+  row.directional = light.kind == LightKind::directional;
+  if (row.directional != 0) copy(glm::normalize(-light.direction), row.to_light);
+  row.largest_coordinate = light_magnitude(light);
+  row.constant = light.constant;
+  row.linear = light.linear;
+  row.quadratic = light.quadratic;
+  row.spot = light.kind == LightKind::spot;
+  if (row.spot != 0) {
+    const SpotCone cone = spot_cone(light);
+    copy(cone.axis, row.axis);
+    row.rim = cone.rim;
+    row.inverse_width = cone.inverse_width;
+    row.exponent = light.exponent;
+  }
+  const LightAxes axes = light_axes(light);
+  copy(axes.u, row.half_axes[0]);
+  copy(axes.v, row.half_axes[1]);
+  copy(axes.w, row.half_axes[2]);
+  row.shape = static_cast<std::uint32_t>(shape_of(light));
+  row.varies = row.spot != 0 || row.shape != 0 || fades(light);
+  row.casts_shadows = light.casts_shadows;
+  return row;
+}
+
 } // namespace
 
 std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& textures) {
@@ -57,35 +106,17 @@ std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& te
   return rows;
 }
 
-std::vector<LightRow> light_rows(const Scene& scene) {
+std::vector<LightRow> light_rows(const Scene& scene, std::vector<EmitterRow>& emitters) {
+  const std::vector<LightMesh>& meshes = scene.light_meshes().lights;
+  for (const LightMesh& mesh : meshes)
+    for (const EmitterTriangle& triangle : mesh.triangles) emitters.push_back(row_of(triangle));
   std::vector<LightRow> rows;
   rows.reserve(scene.lights().size());
-  for (const Light& light : scene.lights()) {
-    LightRow row{};
-    copy(light.position, row.position);
-    copy(light.intensity, row.intensity);
-    row.directional = light.kind == LightKind::directional;
-    if (row.directional != 0) copy(glm::normalize(-light.direction), row.to_light);
-    row.largest_coordinate = light_magnitude(light);
-    row.constant = light.constant;
-    row.linear = light.linear;
-    row.quadratic = light.quadratic;
-    row.spot = light.kind == LightKind::spot;
-    if (row.spot != 0) {
-      const SpotCone cone = spot_cone(light);
-      copy(cone.axis, row.axis);
-      row.rim = cone.rim;
-      row.inverse_width = cone.inverse_width;
-      row.exponent = light.exponent;
-    }
-    const LightAxes axes = light_axes(light);
-    copy(axes.u, row.half_axes[0]);
-    copy(axes.v, row.half_axes[1]);
-    copy(axes.w, row.half_axes[2]);
-    row.shape = static_cast<std::uint32_t>(shape_of(light));
-    row.varies = row.spot != 0 || row.shape != 0 || fades(light);
-    row.casts_shadows = light.casts_shadows;
-    rows.push_back(row);
+  const EmitterRow* next = emitters.data();
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    rows.push_back(row_of(scene.lights()[i]));
+    if (!meshes[i].triangles.empty()) fill_mesh(meshes[i], next, rows.back());
+    next += meshes[i].triangles.size();
   }
   return rows;
 }

@@ -10,6 +10,8 @@
 
 namespace fastrt {
 
+inline constexpr int max_media = 4; // media that a ray can be in at once
+
 // Four triangles, their vertices as columns: x of vertex v of triangle i is x[v][i]. Rows that are not used
 // hold NaN, which no comparison lets through, and the id -1.
 struct alignas(32) TriangleBlock {
@@ -105,8 +107,14 @@ struct MaterialRow {
   float transmission[3];           // Kt
 };
 
+// A triangle of a light that is a mesh.
+struct EmitterRow {
+  float corners[3][3]; // xyz of each
+  float normal[3];     // unit, on either side
+};
+
 struct LightRow {
-  float position[3]; // point lights
+  float position[3]; // of lights that have one; of a mesh some point of it
   float to_light[3]; // directional lights: normalised
   float intensity[3];
   float largest_coordinate; // of the position
@@ -119,6 +127,11 @@ struct LightRow {
   float constant, linear, quadratic;           // how it fades
   float axis[3], rim, inverse_width, exponent; // spots
   float half_axes[3][3];                       // of lights with a size
+  const EmitterRow* emitters;                  // meshes
+  const std::uint32_t* emitter_begin;          // LightMesh::begin
+  std::uint32_t emitter_count;
+  float area_over_pi;
+  std::int32_t media[max_media]; // that its place is in, innermost first; -1: none. Of scenes that absorb.
 };
 
 // What shading needs beyond the geometry. Columns as in TriangleColumns and SphereColumns; the normal columns

@@ -13,25 +13,13 @@ struct MediaLanes {
   std::int32_t after[max_media][widest];
 };
 
-// Crosses the surface of `material`: out of it if the list holds it, else into it.
 FASTRT_INLINE void cross_surface(const ShadingView& scene, const PathBatch& rays, std::int32_t material,
                                  int i, int lane, MediaLanes& media) {
-  std::int32_t list[max_media + 1];
-  int held_at = max_media;
-  for (int k = max_media - 1; k >= 0; --k) {
-    list[k] = rays.media[k][i + lane];
-    if (list[k] == material) held_at = k;
-  }
-  list[max_media] = -1;
-  const std::int32_t before = list[0];
-  if (held_at < max_media)
-    for (int k = held_at; k < max_media; ++k) list[k] = list[k + 1];
-  else {
-    for (int k = max_media - 1; k > 0; --k) list[k] = list[k - 1];
-    list[0] = material;
-  }
+  std::int32_t list[max_media];
+  for (int k = 0; k < max_media; ++k) list[k] = rays.media[k][i + lane];
+  media.ior_before[lane] = list[0] < 0 ? 1.0F : scene.materials[list[0]].ior;
+  cross_medium(material, list);
   for (int k = 0; k < max_media; ++k) media.after[k][lane] = list[k];
-  media.ior_before[lane] = before < 0 ? 1.0F : scene.materials[before].ior;
   media.ior_after[lane] = list[0] < 0 ? 1.0F : scene.materials[list[0]].ior;
 }
 
@@ -72,7 +60,7 @@ FASTRT_INLINE SecondaryLanes secondary_lanes(const MaterialRow& row, const Surfa
   out.mirror_weight = broadcast3<PathF>(row.mirror);
   out.transmitted = a.incident;
   out.transmitted_weight = transmit;
-  const bool bends = row.has_transmit != 0 && row.thin == 0;
+  const bool bends = is_medium(row);
   const PathF eta_i = bends ? ior_before : one;
   const PathF eta_t = bends ? ior_after : PathF(row.ior);
   const PathF eta = eta_i / eta_t;
@@ -163,7 +151,7 @@ FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, cons
   const KeptColumns keep{job.scene->shading.has_transmission != 0, job.scene->shading.has_textures != 0,
                          job.scene->shading.shapes.instance_count != 0};
   MediaLanes media{};
-  const bool bends = row.has_transmit != 0 && row.thin == 0;
+  const bool bends = is_medium(row);
   if (bends)
     for (std::uint32_t b = bits; b != 0; b &= b - 1) {
       const int lane = __builtin_ctz(b);

@@ -10,7 +10,6 @@
 
 namespace fastrt {
 
-inline constexpr int max_media = 4; // media that a ray can be in at once
 inline constexpr int max_path_depth = 64;
 
 // Rays on the way through the scene, all of one depth. Each belongs to a pixel of the tile.
@@ -54,6 +53,7 @@ struct alignas(64) LightBatch {
   float strength[batch_size]; // of lights whose strength varies
   float position_x[batch_size], position_y[batch_size],
       position_z[batch_size]; // of lights with a size: the point asked
+  float normal_x[batch_size], normal_y[batch_size], normal_z[batch_size];    // of meshes: there
   float visible_r[batch_size], visible_g[batch_size], visible_b[batch_size]; // S
 };
 
@@ -76,6 +76,7 @@ struct TileScratch {
   SurfaceBatch surface;
   LightBatch light;
   RayBatch shadow;
+  std::int32_t shadow_media[max_media][batch_size]; // as PathBatch::media. Kept in scenes that absorb.
   float radiance_r[batch_size], radiance_g[batch_size], radiance_b[batch_size]; // of one sample
   float sum_r[batch_size], sum_g[batch_size], sum_b[batch_size];
   float lobe_r[batch_size], lobe_g[batch_size], lobe_b[batch_size]; // of samples in the filter's lobes
@@ -113,6 +114,7 @@ struct RoundView {
 struct TileJob {
   const SceneView* scene;
   CameraView camera;
+  std::int32_t eye_media[max_media]; // that camera rays start in, innermost first
   float width, spread; // of a footprint at a camera ray's origin, and what it grows by per unit of length
   int x, y;            // the tile's upper left pixel, in the picture
   int x_begin, y_begin, x_end, y_end; // the part of the picture that the frame is

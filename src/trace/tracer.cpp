@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/trace/tracer_parts.hpp"
+#include "src/trace/point_media.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -130,9 +130,10 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   parts.nodes = std::move(trees.all.nodes);
   parts.textures = texture_rows(parts.scene);
   parts.materials = material_rows(parts.scene, parts.textures);
-  parts.lights = light_rows(parts.scene);
+  parts.lights = light_rows(parts.scene, parts.emitters);
   fill_geometry_view(parts, trees.all);
   fill_shading_view(parts);
+  place_lights_in_media(parts);
   if (parts.kernels == nullptr) parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings.threads);
 }
 

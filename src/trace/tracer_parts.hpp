@@ -45,6 +45,7 @@ struct Tracer::Parts {
   ShapeRows shapes;
   std::vector<MaterialRow> materials;
   std::vector<LightRow> lights;
+  std::vector<EmitterRow> emitters;
   TextureRows textures;
   SceneView view{};
   BvhStats stats;
@@ -57,7 +58,8 @@ struct Tracer::Parts {
 // The rows that shading reads, from the scene's materials and lights.
 std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& textures);
 TextureRows texture_rows(const Scene& scene);
-std::vector<LightRow> light_rows(const Scene& scene);
+// emitters: filled with the triangles of lights that are meshes.
+std::vector<LightRow> light_rows(const Scene& scene, std::vector<EmitterRow>& emitters);
 
 ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& prototypes);
 ShapeView shape_view(const Scene& scene, const ShapeRows& rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures lit by spots, fading lights and lights with a size, at random, of every ISA against the naive
-// reference: every bit, every AOV, every count.
+// Pictures lit by spots, fading lights, lights with a size and meshes, at random, of every ISA against the
+// naive reference: every bit, every AOV, every count.
 #include "tests/equivalence/random_shots.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 Light any_kind_of_light(Random& random) {
   Light light = any_light(random);
-  light.kind = static_cast<LightKind>(random.below(6));
+  light.kind = static_cast<LightKind>(random.below(7));
   light.casts_shadows = random.below(6) != 0;
   if (random.below(2) == 0) light.constant = random.uniform(), light.quadratic = random.uniform(0.01F, 0.3F);
   if (random.below(2) == 0) light.linear = random.uniform();
@@ -34,12 +34,21 @@ Shot lit_shot(std::uint32_t seed) {
     if (seed % 2 == 0) material.opacity = 1; // shadows without colours
     builder.add_material(material);
   }
+  Material shining = any_material(random);
+  shining.emission = {random.uniform(0.1F, 3), random.uniform(), 0};
+  const std::uint32_t lamp = builder.add_material(shining);
+  add_ball(builder, lamp, random);
+  if (random.below(2) == 0) add_plane(builder, lamp, random);
   add_ball(builder, random.below(materials), random);
   add_plane(builder, random.below(materials), random);
   add_plane(builder, random.below(materials), random);
   for (std::uint32_t i = random.below(4); i != 0; --i)
     builder.add_sphere(1.5F * random.in_cube(), random.uniform(0.2F, 1), random.below(materials));
-  for (std::uint32_t i = 1 + random.below(4); i != 0; --i) builder.add_light(any_kind_of_light(random));
+  for (std::uint32_t i = 1 + random.below(4); i != 0; --i) {
+    Light light = any_kind_of_light(random);
+    light.material = lamp;
+    builder.add_light(light);
+  }
   builder.set_ambient(any_colour(random, 0.3F));
   Shot shot{"lights " + std::to_string(seed), builder.build(), {}, {}};
   shot.camera =

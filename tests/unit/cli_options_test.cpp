@@ -190,8 +190,8 @@ TEST(CliOptions, AovsAreNamesOrAll) {
 TEST(CliOptions, LightsAddUpAndDoNotSwallowTheScene) {
   const Options options = parse({"--light", "point:1,2,3", "--light", "dir:0,-1,0", "a.obj"});
   ASSERT_EQ(options.lights.size(), 2U);
-  EXPECT_EQ(options.lights[0].kind, LightKind::point);
-  EXPECT_EQ(options.lights[1].kind, LightKind::directional);
+  EXPECT_EQ(options.lights[0].light.kind, LightKind::point);
+  EXPECT_EQ(options.lights[1].light.kind, LightKind::directional);
   EXPECT_EQ(options.scene, "a.obj");
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/cli/light_option.hpp"
 #include "src/cli/parse.hpp"
 
 #include <fastrt/error.hpp>
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace fastrt::cli {
 namespace {
@@ -65,6 +68,78 @@ TEST(CliParse, Resolutions) {
                            "99999999x1", "640x480x3", "640 x 480", "6.4x4"}) {
     EXPECT_THROW(parse_resolution("-r", text), UsageError) << text;
   }
+}
+
+TEST(CliParse, LightsOfTheScene) {
+  using Source = LightOption::Source;
+  const LightOption point = parse_light_option("--light", "point:1,2,3");
+  EXPECT_EQ(point.source, Source::described);
+  EXPECT_EQ(point.light.position, Vec3(1, 2, 3));
+  EXPECT_EQ(parse_light_option("--light", "default").source, Source::defaults);
+
+  const LightOption mesh = parse_light_option("--light", "mesh:lamp shade:2:shadows=off:ambient=0,0,1");
+  EXPECT_EQ(mesh.source, Source::material);
+  EXPECT_EQ(mesh.material, "lamp shade");
+  EXPECT_EQ(mesh.light.kind, LightKind::mesh);
+  EXPECT_EQ(mesh.light.intensity, Vec3(2.0F));
+  EXPECT_FALSE(mesh.light.casts_shadows);
+  EXPECT_EQ(mesh.light.ambient, Vec3(0, 0, 1));
+  EXPECT_EQ(parse_light_option("--light", "mesh:lamp:1,0,2").light.intensity, Vec3(1, 0, 2));
+
+  const LightOption all = parse_light_option("--light", "emissive:0.5");
+  EXPECT_EQ(all.source, Source::all_emissive);
+  EXPECT_EQ(all.light.intensity, Vec3(0.5F));
+  for (const char* text : {"mesh", "mesh:", "mesh:a:0", "mesh:a:1:1", "mesh:a:x", "mesh:a:fade=1,0,0",
+                           "emissive:-1", "emissive:1,2", "emissive:shadows=no", "default:1"})
+    EXPECT_THROW(parse_light_option("--light", text), UsageError) << text;
+}
+
+SceneDesc with_materials(std::initializer_list<float> emissions) {
+  SceneDesc desc;
+  for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) desc.positions.push_back(corner);
+  for (const float emission : emissions) {
+    const auto i = static_cast<std::uint32_t>(desc.materials.size());
+    desc.materials.emplace_back();
+    desc.materials.back().name = "m" + std::to_string(i);
+    desc.materials.back().emission = {0, emission, 0};
+    desc.triangles.v0.push_back(0);
+    desc.triangles.v1.push_back(1);
+    desc.triangles.v2.push_back(2);
+    desc.triangles.material.push_back(i);
+    desc.triangles.object.push_back(0);
+  }
+  desc.object_names.emplace_back("all");
+  return desc;
+}
+
+std::vector<Light> chosen(SceneDesc desc, std::initializer_list<const char*> texts) {
+  std::vector<LightOption> options;
+  for (const char* text : texts) options.push_back(parse_light_option("--light", text));
+  choose_lights(options, bounds_of(desc), Camera(), desc);
+  return desc.lights;
+}
+
+TEST(CliParse, LightsAreChosen) {
+  const SceneDesc lamps = with_materials({0, 2, 0.5F});
+  ASSERT_EQ(chosen(lamps, {}).size(), 1U); // the one brighter than 1
+  EXPECT_EQ(chosen(lamps, {})[0].kind, LightKind::mesh);
+  EXPECT_EQ(chosen(lamps, {})[0].material, 1U);
+  ASSERT_EQ(chosen(lamps, {"emissive:3"}).size(), 2U);
+  EXPECT_EQ(chosen(lamps, {"emissive:3"})[1].material, 2U);
+  EXPECT_EQ(chosen(lamps, {"emissive:3"})[1].intensity, Vec3(3.0F));
+  ASSERT_EQ(chosen(lamps, {"mesh:m2", "point:1,2,3"}).size(), 2U);
+  EXPECT_EQ(chosen(lamps, {"mesh:m2", "point:1,2,3"})[0].material, 2U);
+  EXPECT_EQ(chosen(lamps, {"default"}).size(), 2U);
+  EXPECT_EQ(chosen(lamps, {"default"})[0].kind, LightKind::directional);
+  EXPECT_EQ(chosen(with_materials({1}), {})[0].kind, LightKind::directional); // a glow, but no lamp
+
+  SceneDesc lit = lamps;
+  lit.lights.emplace_back();
+  EXPECT_EQ(chosen(lit, {}).size(), 1U);
+  EXPECT_EQ(chosen(lit, {})[0].kind, LightKind::point);
+  EXPECT_EQ(chosen(lit, {"default", "emissive"}).size(), 4U);
+  EXPECT_THROW(chosen(lamps, {"mesh:m3"}), UsageError);
+  EXPECT_THROW(chosen(with_materials({0}), {"emissive"}), UsageError);
 }
 
 TEST(CliParse, Lights) {

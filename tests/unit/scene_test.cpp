@@ -158,6 +158,17 @@ const Fault look_faults[] = {
      "light 1: the direction must be"},
     {"LightNoDirection", [](SceneDesc& d) { d.lights[1].direction = Vec3(0); },
      "light 1: the direction must not"},
+    {"LightMaterial", [](SceneDesc& d) { d.lights[0].kind = LightKind::mesh, d.lights[0].material = 99; },
+     "light 0: it refers to material 99"},
+    {"LightOfNoEmission", [](SceneDesc& d) { d.lights[0].kind = LightKind::mesh; }, "emits nothing (Ke)"},
+    {"LightOnNoTriangle",
+     [](SceneDesc& d) {
+       d.lights[0].kind = LightKind::mesh;
+       d.lights[0].material = static_cast<std::uint32_t>(d.materials.size());
+       d.materials.emplace_back();
+       d.materials.back().emission = Vec3(1.0F);
+     },
+     "light 0: no triangle has the material"},
     {"AmbientLight", [](SceneDesc& d) { d.ambient.x = nan; }, "the ambient light"},
     {"Background", [](SceneDesc& d) { d.background.x = -1; }, "the background"},
 };

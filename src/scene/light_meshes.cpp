@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/scene/light_meshes.hpp"
+
+#include "src/scene/printable.hpp"
+
+#include <fastrt/error.hpp>
+#include <fastrt/load.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fastrt {
+namespace {
+
+using Vec3d = glm::dvec3;
+
+// A prototype's triangles are in the scene where instances show them.
+bool in_prototype(const SceneDesc& desc, std::size_t triangle) {
+  return std::any_of(desc.prototypes.begin(), desc.prototypes.end(), [=](const Prototype& prototype) {
+    return triangle >= prototype.begin[0] && triangle < prototype.end[0];
+  });
+}
+
+float largest_magnitude(const Vec3& v) {
+  return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
+}
+
+// What becomes of the triangles of a light: its emitters and their areas.
+struct Emitters {
+  LightMesh& mesh;
+  std::vector<double> areas;
+
+  // Unless it has no area.
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3d across = glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
+    const double size = glm::length(across);
+    if (!(size > 0.0)) return;
+    mesh.triangles.push_back({a, b, c, Vec3(across / size)});
+    for (const Vec3& corner : {a, b, c}) mesh.magnitude = std::max(mesh.magnitude, largest_magnitude(corner));
+    areas.push_back(0.5 * size);
+  }
+};
+
+Vec3 placed(const Affine& map, const Vec3& point) {
+  return Vec3(Vec3d(map.x) * Vec3d(point).x + Vec3d(map.y) * Vec3d(point).y + Vec3d(map.z) * Vec3d(point).z +
+              Vec3d(map.origin));
+}
+
+void gather_shown_triangles(const SceneDesc& desc, std::uint32_t material, Emitters& emitters) {
+  const TriangleColumns& triangles = desc.triangles;
+  for (std::size_t k = 0; k < desc.instances.size(); ++k) {
+    const Prototype& prototype = desc.prototypes[desc.instances.prototype[k]];
+    const std::uint32_t own = desc.instances.material[k];
+    if (own != no_index && own != material) continue;
+    const Affine& map = desc.instances.to_world[k];
+    for (std::size_t i = prototype.begin[0]; i < prototype.end[0]; ++i)
+      if (own == material || triangles.material[i] == material)
+        emitters.add(placed(map, desc.positions[triangles.v0[i]]),
+                     placed(map, desc.positions[triangles.v1[i]]),
+                     placed(map, desc.positions[triangles.v2[i]]));
+  }
+}
+
+// The triangles of a material that have an area, and their areas.
+std::vector<double> gather_triangles(const SceneDesc& desc, std::uint32_t material, LightMesh& mesh) {
+  Emitters emitters{mesh, {}};
+  const TriangleColumns& triangles = desc.triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (triangles.material[i] == material && !in_prototype(desc, i))
+      emitters.add(desc.positions[triangles.v0[i]], desc.positions[triangles.v1[i]],
+                   desc.positions[triangles.v2[i]]);
+  gather_shown_triangles(desc, material, emitters);
+  return emitters.areas;
+}
+
+LightMesh mesh_of(const SceneDesc& desc, std::size_t light_index) {
+  const Light& light = desc.lights[light_index];
+  LightMesh mesh;
+  if (light.kind != LightKind::mesh) return mesh;
+  const Material& material = desc.materials[light.material];
+  const std::vector<double> areas = gather_triangles(desc, light.material, mesh);
+  if (areas.empty())
+    throw InputError("light " + std::to_string(light_index) + ": no triangle has the material '" +
+                     printable(material.name) + "'");
+  double total = 0.0;
+  for (const double area : areas) total += area;
+  double before = 0.0;
+  for (const double area : areas) {
+    mesh.begin.push_back(static_cast<std::uint32_t>(std::min(before / total * 0x1p32, 4294967295.0)));
+    before += area;
+  }
+  mesh.radiance = material.emission * light.intensity;
+  mesh.area_over_pi = static_cast<float>(total / std::numbers::pi);
+  const EmitterTriangle& first = mesh.triangles.front();
+  mesh.middle = Vec3((Vec3d(first.a) + Vec3d(first.b) + Vec3d(first.c)) / 3.0);
+  return mesh;
+}
+
+} // namespace
+
+std::size_t LightMeshes::bytes() const noexcept {
+  std::size_t sum = 0;
+  for (const LightMesh& mesh : lights)
+    sum += mesh.triangles.size() * sizeof(EmitterTriangle) + mesh.begin.size() * sizeof(std::uint32_t);
+  return sum;
+}
+
+std::vector<Light> emissive_lights(const SceneDesc& desc, float brighter_than) {
+  const auto shines = [&](const Material& material) {
+    const Vec3& e = material.emission;
+    return material.emission_texture == no_texture && std::max(e.x, std::max(e.y, e.z)) > brighter_than;
+  };
+  std::vector<Light> lights;
+  for (std::uint32_t i = 0; i < desc.materials.size(); ++i) {
+    LightMesh mesh;
+    if (!shines(desc.materials[i]) || gather_triangles(desc, i, mesh).empty()) continue;
+    lights.emplace_back();
+    lights.back().kind = LightKind::mesh;
+    lights.back().material = i;
+  }
+  return lights;
+}
+
+LightMeshes make_light_meshes(const SceneDesc& desc) {
+  LightMeshes meshes;
+  for (std::size_t i = 0; i < desc.lights.size(); ++i) meshes.lights.push_back(mesh_of(desc, i));
+  return meshes;
+}
+
+} // namespace fastrt

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is left of a light along shadow rays: nothing or all of it, or what transparent surfaces let through
+// (docs/numerics.md, "Shading").
+#pragma once
+
+#include "src/kernels/batch_queries.hpp"
+#include "src/trace/textures.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+FASTRT_INLINE void store_visibility(const PathV& visible, int i, LightBatch& light) {
+  store3(visible, light.visible_r + i, light.visible_g + i, light.visible_b + i);
+}
+
+// Shadows where nothing is transparent: 0 or 1.
+FASTRT_INLINE void trace_opaque_shadows(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                                        LightBatch& light) {
+  find_any_hits(scene, rays, hits);
+  for (int i = 0; i < rays.count; i += widest) {
+    const PathM free = simd::bool_cast(PathI::load_aligned(hits.primitive + i) < PathI(0));
+    const PathF visible = simd::select(free, PathF(1.0F), PathF(0.0F));
+    store_visibility({visible, visible, visible}, i, light);
+  }
+}
+
+// One surface on the way of shadow ray i: takes what it holds back. Returns whether the ray goes on behind
+// it.
+FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
+                                LightBatch& light) {
+  const MaterialRow& row = scene.materials[material_of_hit(scene, hits, i)];
+  if (row.has_transmit == 0) {
+    light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
+    return false;
+  }
+  Row3 transmit{row.transmit[0], row.transmit[1], row.transmit[2]};
+  if (row.textures != nullptr && row.textures->opacity != nullptr)
+    transmit = transmit_at(scene, row, rays, hits, i);
+  light.visible_r[i] = light.visible_r[i] * transmit.x;
+  light.visible_g[i] = light.visible_g[i] * transmit.y;
+  light.visible_b[i] = light.visible_b[i] * transmit.z;
+  return light.visible_r[i] != 0.0F || light.visible_g[i] != 0.0F || light.visible_b[i] != 0.0F;
+}
+
+// Shadows through transparent surfaces: from surface to surface along each ray, in order of t.
+FASTRT_INLINE void trace_coloured_shadows(const SceneView& scene, RayBatch& rays, HitBatch& hits,
+                                          LightBatch& light) {
+  for (int i = 0; i < rays.count; i += widest)
+    store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, light);
+  bool going_on = true;
+  while (going_on) {
+    find_closest_hits(scene.geometry, rays, hits);
+    going_on = false;
+    for (int i = 0; i < rays.count; ++i) {
+      if (hits.primitive[i] >= 0 && pass_surface(scene.shading, rays, hits, i, light)) {
+        rays.t_min[i] = hits.t[i];
+        going_on = true;
+      } else {
+        rays.t_max[i] = rays.t_min[i]; // done
+      }
+    }
+  }
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
