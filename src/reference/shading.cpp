@@ -2,6 +2,7 @@
 #include "src/reference/shading.hpp"
 
 #include "src/reference/arithmetic.hpp"
+#include "src/reference/photons.hpp"
 #include "src/reference/textures.hpp"
 #include "src/scene/light_numbers.hpp"
 #include "src/simd/shared_math.hpp"
@@ -56,20 +57,23 @@ Ray shadow_ray(const Light& light, const Vec3& position, const Surface& surface,
   return ray;
 }
 
-// What is left of the light along a shadow ray: starts as 1, and every surface on the way takes its part.
-Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray) {
+} // namespace
+
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, bool bodies_block) {
   if (!scene.has_transmission()) return finder.any(ray) ? Vec3(0.0F) : Vec3(1.0F);
   Vec3 left{1.0F};
   for (Hit hit = finder.closest(ray); hit.found(); hit = finder.closest(ray)) {
     const auto primitive = static_cast<std::uint32_t>(hit.primitive);
     const Material& material = scene.materials()[scene.material_of(primitive)];
-    if (!is_transmissive(material)) return Vec3(0.0F);
+    if (!is_transmissive(material) || (bodies_block && !material.thin)) return Vec3(0.0F);
     left = left * transmittance(material, opacity_at(scene, ray, hit));
     if (left == Vec3(0.0F)) return left;
     ray.t_min = hit.t;
   }
   return left;
 }
+
+namespace {
 
 // A point of a light with a size.
 Vec3 point_of(const Light& light, const LightQuestion& question, int index, int count) {
@@ -93,9 +97,9 @@ float spot_share(const Light& light, const Vec3& to_light) {
 // What every light has to say of one surface.
 class Lighting {
 public:
-  Lighting(const Scene& scene, const HitFinder& finder, const Surface& surface)
-      : scene_(scene), finder_(finder), surface_(surface), material_(scene.materials()[surface.material]),
-        finish_(finish_of(material_, surface)) {}
+  Lighting(const Scene& scene, const HitFinder& finder, const Surface& surface, bool bodies_block)
+      : scene_(scene), finder_(finder), surface_(surface), bodies_block_(bodies_block),
+        material_(scene.materials()[surface.material]), finish_(finish_of(material_, surface)) {}
 
   const Finish& finish() const { return finish_; }
   // Adds what the light at `position` gives to `lit`. share: of one of a light's points; 0 of a light
@@ -107,6 +111,7 @@ private:
   const Scene& scene_;
   const HitFinder& finder_;
   const Surface& surface_;
+  bool bodies_block_;
   const Material& material_;
   Finish finish_;
 };
@@ -132,7 +137,7 @@ void Lighting::add(const Light& light, const Vec3& position, float share, Vec3& 
   Vec3 shadow{1.0F};
   if (light.casts_shadows) {
     ++rays.shadow;
-    shadow = let_through(scene_, finder_, shadow_ray(light, position, surface_, to_light));
+    shadow = let_through(scene_, finder_, shadow_ray(light, position, surface_, to_light), bodies_block_);
     light_left = light_left + (share != 0.0F ? shadow * share : shadow);
   }
   lit = lit + (phong_model(material_, finish_, surface_, to_light, cos_n) * intensity) * shadow;
@@ -141,8 +146,8 @@ void Lighting::add(const Light& light, const Vec3& position, float share, Vec3& 
 } // namespace
 
 Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, const LightSampling& sampling,
-           RayCounts& rays, Vec3& light_left) {
-  const Lighting lighting(scene, finder, surface);
+           const PhotonMap* caustics, RayCounts& rays, Vec3& light_left) {
+  const Lighting lighting(scene, finder, surface, caustics != nullptr);
   const Finish& finish = lighting.finish();
   if (scene.materials()[surface.material].unlit) return finish.emission + finish.diffuse;
 
@@ -158,6 +163,7 @@ Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, 
     }
     ++question.light;
   }
+  if (caustics != nullptr) lit = lit + finish.diffuse * caustic_light(*caustics, surface);
   return finish.emission + finish.opacity * lit;
 }
 

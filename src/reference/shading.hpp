@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/film/light_sampling.hpp"
+#include "src/film/photon_map.hpp"
 #include "src/reference/hit_finder.hpp"
 #include "src/reference/surface.hpp"
 
@@ -31,9 +32,14 @@ struct LightSampling {
   int count = 1;          // points of each
 };
 
+// What is left of the light along a ray between a light and a surface: starts as 1, and every surface on the
+// way takes its part. bodies_block: those that bend light, because photons carry what they let through.
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, bool bodies_block);
+
 // The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.
 // Each shadow that is asked for adds one to rays.shadow, and what it leaves of the light to light_left.
+// caustics: null for none.
 Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, const LightSampling& sampling,
-           RayCounts& rays, Vec3& light_left);
+           const PhotonMap* caustics, RayCounts& rays, Vec3& light_left);
 
 } // namespace fastrt::reference

@@ -180,7 +180,7 @@ FASTRT_INLINE const MaterialRow& material_of(const ShadingView& scene, std::int3
 FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
                                 LightBatch& light) {
   const MaterialRow& row = material_of(scene, hits.primitive[i]);
-  if (row.has_transmit == 0) {
+  if (row.passes_light == 0) {
     light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
     return false;
   }
