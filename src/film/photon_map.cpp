@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/film/photon_map.hpp"
 
+#include "src/film/photon_radii.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +12,6 @@
 namespace fastrt {
 namespace {
 
-// How many photons the middle one of them finds within the radius.
-constexpr double wanted_photons = 100;
 // Cells along the longest side, at most.
 constexpr float most_cells = 1000;
 
@@ -19,90 +19,74 @@ float longest(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 struct Cell {
   std::int32_t x, y, z;
-  auto key() const { return std::tuple(z, y, x); }
 };
 
-Cell cell_of(const Vec3& point, const Vec3& low, float inverse_side) {
-  const Vec3 at = (point - low) * inverse_side;
+Cell cell_of(const Vec3& point, const PhotonLevel& level) {
+  const Vec3 at = (point - level.bounds.lower) * level.inverse_side;
   return {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), static_cast<std::int32_t>(at.z)};
 }
 
-// How many photons the median photon shares a cell with.
-double median_neighbours(const std::vector<Photon>& photons, const Vec3& low, float side) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(photons.size());
-  for (const Photon& photon : photons) {
-    const Cell cell = cell_of(photon.point, low, 1.0F / side);
-    keys.push_back((static_cast<std::uint64_t>(cell.z) << 40U) | (static_cast<std::uint64_t>(cell.y) << 20U) |
-                   static_cast<std::uint64_t>(cell.x));
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::uint32_t> counts;
-  for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
-    while (end < keys.size() && keys[end] == keys[begin]) ++end;
-    counts.insert(counts.end(), end - begin, static_cast<std::uint32_t>(end - begin));
-  }
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  return *middle;
+void set_grid(const std::vector<Photon>& photons, float radius, PhotonLevel& level) {
+  for (const Photon& photon : photons) level.bounds.extend(photon.point);
+  // Points are no finer than this.
+  const float least = 1e-6F * longest(glm::max(glm::abs(level.bounds.lower), glm::abs(level.bounds.upper)));
+  level.radius = std::max(radius, least);
+  level.radius2 = level.radius * level.radius;
+  level.inverse_radius2 = 1.0F / level.radius2;
+  level.height2 = level.radius2 * 0.0625F;
+  const float side = std::max(1.0625F * level.radius, longest(level.bounds.extent()) / most_cells);
+  level.inverse_side = 1.0F / side;
+  const Cell last = cell_of(level.bounds.upper, level);
+  level.size_x = last.x + 1;
+  level.size_y = last.y + 1;
+  level.size_z = last.z + 1;
 }
 
-// From the density around the median photon: half of them lie closer together.
-float choose_radius(const std::vector<Photon>& photons, const Aabb& bounds) {
-  const float extent = longest(bounds.extent());
-  if (!(extent > 0.0F)) return 1e-3F * std::max(1.0F, longest(glm::abs(bounds.lower)));
-  float side = extent / 256;
-  double neighbours = median_neighbours(photons, bounds.lower, side);
-  while (neighbours < 16 && side < extent / 10) {
-    side *= 2;
-    neighbours = median_neighbours(photons, bounds.lower, side);
-  }
-  const double density = neighbours / (static_cast<double>(side) * static_cast<double>(side));
-  const double radius = std::sqrt(wanted_photons / (std::numbers::pi * density));
-  return std::min(static_cast<float>(radius), extent / 16);
-}
-
-void set_grid(PhotonMap& map) {
-  const float side = std::max(1.0625F * map.radius, longest(map.bounds.extent()) / most_cells);
-  map.inverse_side = 1.0F / side;
-  const Cell last = cell_of(map.bounds.upper, map.bounds.lower, map.inverse_side);
-  map.size_x = last.x + 1;
-  map.size_y = last.y + 1;
-  map.size_z = last.z + 1;
-}
-
-void sort_photons(const PhotonMap& map, std::vector<Photon>& photons) {
+void sort_photons(const PhotonLevel& level, std::vector<Photon>& photons) {
   const auto order = [&](const Photon& p) {
-    return std::tuple(cell_of(p.point, map.bounds.lower, map.inverse_side).key(), p.light, p.index, p.key,
-                      p.point.x, p.point.y, p.point.z);
+    const Cell cell = cell_of(p.point, level);
+    return std::tuple(cell.z, cell.y, cell.x, p.light, p.index, p.key, p.point.x, p.point.y, p.point.z);
   };
   std::sort(photons.begin(), photons.end(),
             [&](const Photon& a, const Photon& b) { return order(a) < order(b); });
 }
 
-void fill_columns(const std::vector<Photon>& photons, PhotonMap& map) {
+void fill_columns(const std::vector<Photon>& photons, PhotonLevel& level) {
   const auto column = [&](std::vector<float>& to, Vec3 Photon::*member, int axis) {
     to.reserve(photons.size() + photon_padding);
     for (const Photon& photon : photons) to.push_back((photon.*member)[axis]);
     to.insert(to.end(), photon_padding, std::numeric_limits<float>::quiet_NaN());
   };
-  std::vector<float>* const columns[] = {&map.x,        &map.y, &map.z, &map.normal_x, &map.normal_y,
-                                         &map.normal_z, &map.r, &map.g, &map.b};
+  std::vector<float>* const columns[] = {&level.x,        &level.y,        &level.z,
+                                         &level.normal_x, &level.normal_y, &level.normal_z,
+                                         &level.r,        &level.g,        &level.b};
   Vec3 Photon::*const members[] = {&Photon::point, &Photon::normal, &Photon::flux};
   for (int i = 0; i < 9; ++i) column(*columns[i], members[i / 3], i % 3);
 }
 
-void fill_rows(const std::vector<Photon>& photons, PhotonMap& map) {
-  const auto rows = static_cast<std::size_t>(map.size_y) * static_cast<std::size_t>(map.size_z);
-  map.row_begin.assign(rows + 1, 0);
-  map.cell_x.reserve(photons.size());
+void fill_rows(const std::vector<Photon>& photons, PhotonLevel& level) {
+  const auto rows = static_cast<std::size_t>(level.size_y) * static_cast<std::size_t>(level.size_z);
+  level.row_begin.assign(rows + 1, 0);
+  level.cell_x.reserve(photons.size());
   for (const Photon& photon : photons) {
-    const Cell cell = cell_of(photon.point, map.bounds.lower, map.inverse_side);
-    map.cell_x.push_back(cell.x);
-    ++map.row_begin[static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(map.size_y) +
-                    static_cast<std::size_t>(cell.y) + 1];
+    const Cell cell = cell_of(photon.point, level);
+    level.cell_x.push_back(cell.x);
+    ++level.row_begin[static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(level.size_y) +
+                      static_cast<std::size_t>(cell.y) + 1];
   }
-  for (std::size_t row = 0; row < rows; ++row) map.row_begin[row + 1] += map.row_begin[row];
+  for (std::size_t row = 0; row < rows; ++row) level.row_begin[row + 1] += level.row_begin[row];
+}
+
+PhotonLevel make_level(std::vector<Photon> photons, std::uint64_t count, float radius) {
+  PhotonLevel level;
+  set_grid(photons, radius, level);
+  const auto scale = static_cast<float>(2.0 / (std::numbers::pi * static_cast<double>(level.radius2)) /
+                                        static_cast<double>(count));
+  for (Photon& photon : photons) photon.flux *= scale;
+  sort_photons(level, photons);
+  fill_columns(photons, level);
+  fill_rows(photons, level);
+  return level;
 }
 
 bool usable(const Photon& p) {
@@ -116,18 +100,20 @@ PhotonMap make_photon_map(std::vector<Photon> photons, std::uint64_t count, floa
   std::erase_if(photons, [](const Photon& photon) { return !usable(photon); });
   PhotonMap map;
   if (photons.empty()) return map;
-  for (const Photon& photon : photons) map.bounds.extend(photon.point);
-  // Points are no finer than this.
-  const float least = 1e-6F * longest(glm::max(glm::abs(map.bounds.lower), glm::abs(map.bounds.upper)));
-  map.radius = std::max(radius > 0.0F ? radius : choose_radius(photons, map.bounds), least);
-  map.radius2 = map.radius * map.radius;
-  map.inverse_radius2 = 1.0F / map.radius2;
-  map.scale = static_cast<float>(2.0 / (std::numbers::pi * static_cast<double>(map.radius2)) /
-                                 static_cast<double>(count));
-  set_grid(map);
-  sort_photons(map, photons);
-  fill_columns(photons, map);
-  fill_rows(photons, map);
+  if (radius > 0.0F) {
+    map.levels.push_back(make_level(std::move(photons), count, radius));
+    return map;
+  }
+  Aabb bounds;
+  for (const Photon& photon : photons) bounds.extend(photon.point);
+  const PhotonRadii radii = choose_radii(photons, bounds);
+  std::vector<std::vector<Photon>> by_level(photon_radii);
+  for (std::size_t i = 0; i < photons.size(); ++i) by_level[radii.level[i]].push_back(photons[i]);
+  for (int i = 0; i < photon_radii; ++i) {
+    std::vector<Photon>& of_level = by_level[static_cast<std::size_t>(i)];
+    if (!of_level.empty())
+      map.levels.push_back(make_level(std::move(of_level), count, std::ldexp(radii.widest, -i)));
+  }
   return map;
 }
 

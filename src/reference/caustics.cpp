@@ -23,17 +23,27 @@ PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const Phot
   return make_photon_map(std::move(photons), plan.count, settings.caustic_radius);
 }
 
+namespace {
+
+void add_level(const PhotonLevel& level, const Surface& surface, Vec3& sum) {
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    const Vec3 way = Vec3(level.x[i], level.y[i], level.z[i]) - surface.point;
+    const float d2 = glm::dot(way, way);
+    if (!(d2 < level.radius2)) continue;
+    const Vec3 normal(level.normal_x[i], level.normal_y[i], level.normal_z[i]);
+    const float height = glm::dot(way, normal);
+    if (!(height * height < level.height2)) continue;
+    if (!(glm::dot(normal, surface.geometric_normal) > same_surface)) continue;
+    sum = sum + Vec3(level.r[i], level.g[i], level.b[i]) * (1.0F - d2 * level.inverse_radius2);
+  }
+}
+
+} // namespace
+
 Vec3 caustic_light(const PhotonMap& map, const Surface& surface) {
   Vec3 sum{0.0F};
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const Vec3 way = Vec3(map.x[i], map.y[i], map.z[i]) - surface.point;
-    const float d2 = glm::dot(way, way);
-    if (!(d2 < map.radius2)) continue;
-    const Vec3 normal(map.normal_x[i], map.normal_y[i], map.normal_z[i]);
-    if (!(glm::dot(normal, surface.geometric_normal) > same_surface)) continue;
-    sum = sum + Vec3(map.r[i], map.g[i], map.b[i]) * (1.0F - d2 * map.inverse_radius2);
-  }
-  return sum * map.scale;
+  for (const PhotonLevel& level : map.levels) add_level(level, surface, sum);
+  return sum;
 }
 
 } // namespace fastrt::reference

@@ -6,23 +6,23 @@
 namespace fastrt {
 namespace {
 
-PhotonMapView view_of(const PhotonMap& map) {
-  PhotonMapView view{{map.x.data(), map.y.data(), map.z.data()},
-                     {map.normal_x.data(), map.normal_y.data(), map.normal_z.data()},
-                     {map.r.data(), map.g.data(), map.b.data()},
-                     map.cell_x.data(),
-                     map.row_begin.data(),
-                     {map.size_x, map.size_y, map.size_z},
-                     {},
-                     {},
-                     map.inverse_side,
-                     map.radius,
-                     map.radius2,
-                     map.inverse_radius2,
-                     map.scale};
+PhotonLevelView view_of(const PhotonLevel& level) {
+  PhotonLevelView view{{level.x.data(), level.y.data(), level.z.data()},
+                       {level.normal_x.data(), level.normal_y.data(), level.normal_z.data()},
+                       {level.r.data(), level.g.data(), level.b.data()},
+                       level.cell_x.data(),
+                       level.row_begin.data(),
+                       {level.size_x, level.size_y, level.size_z},
+                       {},
+                       {},
+                       level.inverse_side,
+                       level.radius,
+                       level.radius2,
+                       level.inverse_radius2,
+                       level.height2};
   for (int axis = 0; axis < 3; ++axis) {
-    view.low[axis] = map.bounds.lower[axis];
-    view.high[axis] = map.bounds.upper[axis];
+    view.low[axis] = level.bounds.lower[axis];
+    view.high[axis] = level.bounds.upper[axis];
   }
   return view;
 }
@@ -36,7 +36,8 @@ Caustics::Caustics(const Tracer::Parts& parts, const RenderSettings& settings)
 
 void Caustics::trace(FrameProgress& progress) {
   map_ = make_photon_map(trace_photons(pass_, progress), plan_.count, radius_);
-  view_ = view_of(map_);
+  for (const PhotonLevel& level : map_.levels) levels_.push_back(view_of(level));
+  view_ = {levels_.data(), static_cast<int>(levels_.size())};
 }
 
 } // namespace fastrt

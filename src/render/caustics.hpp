@@ -24,6 +24,7 @@ private:
   PhotonPass pass_;
   float radius_;
   PhotonMap map_;
+  std::vector<PhotonLevelView> levels_;
   PhotonMapView view_{};
 };
 

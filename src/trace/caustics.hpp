@@ -8,24 +8,24 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// The light of the photons around one point, before it is scaled.
+// The light of the photons around one point.
 struct PhotonSum {
   float r, g, b;
 };
 
 // The cell that a coordinate lies in, or the one before the first or after the last.
-FASTRT_INLINE int photon_cell(const PhotonMapView& map, float x, int axis) {
-  const float at = (x - map.low[axis]) * map.inverse_side + 1.0F;
-  const auto size = static_cast<float>(map.size[axis]);
+FASTRT_INLINE int photon_cell(const PhotonLevelView& level, float x, int axis) {
+  const float at = (x - level.low[axis]) * level.inverse_side + 1.0F;
+  const auto size = static_cast<float>(level.size[axis]);
   return static_cast<int>(at > 0.0F ? (at < size + 1.0F ? at : size + 1.0F) : 0.0F) - 1;
 }
 
 // The first photon of begin .. end - 1 whose cell is not before `cell`.
-FASTRT_INLINE std::uint32_t first_from_cell(const PhotonMapView& map, std::uint32_t begin, std::uint32_t end,
-                                            int cell) {
+FASTRT_INLINE std::uint32_t first_from_cell(const PhotonLevelView& level, std::uint32_t begin,
+                                            std::uint32_t end, int cell) {
   while (begin < end) {
     const std::uint32_t middle = begin + (end - begin) / 2;
-    if (map.cell_x[middle] < cell)
+    if (level.cell_x[middle] < cell)
       begin = middle + 1;
     else
       end = middle;
@@ -34,49 +34,49 @@ FASTRT_INLINE std::uint32_t first_from_cell(const PhotonMapView& map, std::uint3
 }
 
 // Adds photons begin .. end - 1, one after the other, as far as they are near the point and on its surface.
-FASTRT_INLINE void add_photons(const PhotonMapView& map, std::uint32_t begin, std::uint32_t end,
+FASTRT_INLINE void add_photons(const PhotonLevelView& level, std::uint32_t begin, std::uint32_t end,
                                const PathV& point, const PathV& normal, PhotonSum& sum) {
   alignas(64) float kernel[widest];
   for (std::uint32_t k = begin; k < end; k += static_cast<std::uint32_t>(widest)) {
-    const PathV way = load3<PathF>(map.point[0] + k, map.point[1] + k, map.point[2] + k) - point;
+    const PathV way = load3<PathF>(level.point[0] + k, level.point[1] + k, level.point[2] + k) - point;
     const PathF d2 = dot(way, way);
-    const PathV other = load3<PathF>(map.normal[0] + k, map.normal[1] + k, map.normal[2] + k);
-    const PathM near = (d2 < PathF(map.radius2)) & (dot(other, normal) > PathF(same_surface));
+    const PathV other = load3<PathF>(level.normal[0] + k, level.normal[1] + k, level.normal[2] + k);
+    const PathF height = dot(way, other);
+    const PathM near = (d2 < PathF(level.radius2)) & (height * height < PathF(level.height2)) &
+                       (dot(other, normal) > PathF(same_surface));
     const std::uint32_t left = end - k;
     std::uint32_t bits = to_bits(near);
     if (left < static_cast<std::uint32_t>(widest)) bits &= (1U << left) - 1U;
     if (bits == 0) continue;
-    (PathF(1.0F) - d2 * PathF(map.inverse_radius2)).store_aligned(kernel);
+    (PathF(1.0F) - d2 * PathF(level.inverse_radius2)).store_aligned(kernel);
     for (; bits != 0; bits &= bits - 1) {
       const int lane = __builtin_ctz(bits);
       const std::uint32_t photon = k + static_cast<std::uint32_t>(lane);
-      sum.r = sum.r + map.flux[0][photon] * kernel[lane];
-      sum.g = sum.g + map.flux[1][photon] * kernel[lane];
-      sum.b = sum.b + map.flux[2][photon] * kernel[lane];
+      sum.r = sum.r + level.flux[0][photon] * kernel[lane];
+      sum.g = sum.g + level.flux[1][photon] * kernel[lane];
+      sum.b = sum.b + level.flux[2][photon] * kernel[lane];
     }
   }
 }
 
-[[gnu::noinline]] static PhotonSum photons_around(const PhotonMapView& map, const SurfaceBatch& s,
-                                                  int i) noexcept {
-  PhotonSum sum{0.0F, 0.0F, 0.0F};
+[[gnu::noinline]] static void add_level(const PhotonLevelView& level, const SurfaceBatch& s, int i,
+                                        PhotonSum& sum) noexcept {
   const float p[3] = {s.point_x[i], s.point_y[i], s.point_z[i]};
   for (int axis = 0; axis < 3; ++axis)
-    if (!(p[axis] >= map.low[axis] - map.radius && p[axis] <= map.high[axis] + map.radius)) return sum;
+    if (!(p[axis] >= level.low[axis] - level.radius && p[axis] <= level.high[axis] + level.radius)) return;
   const PathV point = broadcast3<PathF>(p);
   const PathV normal = broadcast3<PathF>(s.geometric_x[i], s.geometric_y[i], s.geometric_z[i]);
-  const int x = photon_cell(map, p[0], 0), y = photon_cell(map, p[1], 1), z = photon_cell(map, p[2], 2);
-  for (int row_z = z > 0 ? z - 1 : 0; row_z <= z + 1 && row_z < map.size[2]; ++row_z)
-    for (int row_y = y > 0 ? y - 1 : 0; row_y <= y + 1 && row_y < map.size[1]; ++row_y) {
-      const std::uint32_t* const row = map.row_begin + static_cast<long>(row_z) * map.size[1] + row_y;
+  const int x = photon_cell(level, p[0], 0), y = photon_cell(level, p[1], 1), z = photon_cell(level, p[2], 2);
+  for (int row_z = z > 0 ? z - 1 : 0; row_z <= z + 1 && row_z < level.size[2]; ++row_z)
+    for (int row_y = y > 0 ? y - 1 : 0; row_y <= y + 1 && row_y < level.size[1]; ++row_y) {
+      const std::uint32_t* const row = level.row_begin + static_cast<long>(row_z) * level.size[1] + row_y;
       if (row[0] == row[1]) continue;
-      const std::uint32_t begin = first_from_cell(map, row[0], row[1], x - 1);
-      add_photons(map, begin, first_from_cell(map, begin, row[1], x + 2), point, normal, sum);
+      const std::uint32_t begin = first_from_cell(level, row[0], row[1], x - 1);
+      add_photons(level, begin, first_from_cell(level, begin, row[1], x + 2), point, normal, sum);
     }
-  return sum;
 }
 
-// L = L + Kd * (sum * scale), for the surfaces that answer light.
+// L = L + Kd * sum, for the surfaces that answer light.
 static void gather_caustics(const TileJob& job, const PathBatch& rays, TileScratch& scratch) noexcept {
   const PhotonMapView& map = *job.caustics;
   SurfaceBatch& s = scratch.surface;
@@ -86,12 +86,13 @@ static void gather_caustics(const TileJob& job, const PathBatch& rays, TileScrat
     alignas(64) float sums[3][widest] = {};
     for (std::uint32_t b = bits; b != 0; b &= b - 1) {
       const int lane = __builtin_ctz(b);
-      const PhotonSum sum = photons_around(map, s, i + lane);
+      PhotonSum sum{0.0F, 0.0F, 0.0F};
+      for (int k = 0; k < map.level_count; ++k) add_level(map.levels[k], s, i + lane, sum);
       sums[0][lane] = sum.r;
       sums[1][lane] = sum.g;
       sums[2][lane] = sum.b;
     }
-    const PathV light = load3<PathF>(sums[0], sums[1], sums[2]) * PathF(map.scale);
+    const PathV light = load3<PathF>(sums[0], sums[1], sums[2]);
     for_each_material(job.scene->shading, s.material + i, bits,
                       [&](const MaterialRow& row, const PathM& mask, std::uint32_t) {
                         const PathV kd = row.textures != nullptr
