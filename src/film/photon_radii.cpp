@@ -7,7 +7,7 @@
 namespace fastrt {
 namespace {
 
-constexpr std::size_t wanted_photons = 100;
+constexpr std::size_t wanted_photons = 60;
 // The cells of level 0 divide the longest side by 2^3.
 constexpr int first_bits = 3;
 constexpr int finest_bits = first_bits + photon_radii - 1;

@@ -21,6 +21,9 @@ inline constexpr float film_most = 1073741824.0F;
 // The cosine between normals below which a photon of a caustic belongs to another surface.
 inline constexpr float same_surface = 0.5F;
 
+// Around a point photon i is added to sum i modulo this, so that as many are added at once.
+inline constexpr std::uint32_t photon_sums = 16;
+
 // Every second bit, from the lowest on, moved together.
 [[gnu::always_inline]] static inline std::uint32_t even_bits(std::uint32_t x) {
   x &= 0x55555555U;

@@ -2,6 +2,7 @@
 #include "src/film/photon_sampling.hpp"
 #include "src/reference/photons.hpp"
 
+#include <array>
 #include <mutex>
 
 namespace fastrt::reference {
@@ -25,7 +26,7 @@ PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const Phot
 
 namespace {
 
-void add_level(const PhotonLevel& level, const Surface& surface, Vec3& sum) {
+void add_level(const PhotonLevel& level, const Surface& surface, std::array<Vec3, photon_sums>& sums) {
   for (std::size_t i = 0; i < level.size(); ++i) {
     const Vec3 way = Vec3(level.x[i], level.y[i], level.z[i]) - surface.point;
     const float d2 = glm::dot(way, way);
@@ -34,6 +35,7 @@ void add_level(const PhotonLevel& level, const Surface& surface, Vec3& sum) {
     const float height = glm::dot(way, normal);
     if (!(height * height < level.height2)) continue;
     if (!(glm::dot(normal, surface.geometric_normal) > same_surface)) continue;
+    Vec3& sum = sums[i % photon_sums];
     sum = sum + Vec3(level.r[i], level.g[i], level.b[i]) * (1.0F - d2 * level.inverse_radius2);
   }
 }
@@ -41,9 +43,12 @@ void add_level(const PhotonLevel& level, const Surface& surface, Vec3& sum) {
 } // namespace
 
 Vec3 caustic_light(const PhotonMap& map, const Surface& surface) {
-  Vec3 sum{0.0F};
-  for (const PhotonLevel& level : map.levels) add_level(level, surface, sum);
-  return sum;
+  std::array<Vec3, photon_sums> sums;
+  sums.fill(Vec3(0.0F));
+  for (const PhotonLevel& level : map.levels) add_level(level, surface, sums);
+  Vec3 light = sums[0];
+  for (std::size_t i = 1; i < photon_sums; ++i) light = light + sums[i];
+  return light;
 }
 
 } // namespace fastrt::reference
