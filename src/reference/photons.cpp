@@ -13,9 +13,9 @@
 namespace fastrt::reference {
 namespace {
 
-// A spot's light in a direction whose cosine to its axis is x.
-float spot_profile(const Light& light, float x) {
+float spot_profile(const Light& light, const Vec3& direction) {
   const SpotCone cone = spot_cone(light);
+  const float x = glm::dot(direction, cone.axis);
   if (!(x > cone.rim)) return 0.0F;
   const float y = min((x - cone.rim) * cone.inverse_width, 1.0F);
   const float soft = (y * y) * (3.0F - 2.0F * y);
@@ -42,7 +42,7 @@ PhotonNode emit(const Light& light, const PhotonLight& row, std::uint32_t index,
   }
   const LightPlace way = cap_direction(place, row.cap_height);
   photon.ray.direction = (way.x * row.u + way.y * row.v) + way.z * row.w;
-  if (light.kind == LightKind::spot) photon.strength = spot_profile(light, way.z);
+  if (light.kind == LightKind::spot) photon.strength = spot_profile(light, photon.ray.direction);
   return photon;
 }
 

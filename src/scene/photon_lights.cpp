@@ -73,9 +73,14 @@ bool sees(const DVec3& point, double reach, const DVec3& axis, double half_angle
   return angle_between(way / distance, axis) <= std::asin(radius / distance) + half_angle;
 }
 
-void aim_cells(const Light& light, const PhotonTargets& targets, PhotonLight& row) {
+// How far the points of a light are from its middle, at most.
+double reach_of(const Light& light) {
   const LightAxes axes = light_axes(light);
-  const double reach = glm::length(DVec3(axes.u)) + glm::length(DVec3(axes.v)) + glm::length(DVec3(axes.w));
+  return glm::length(DVec3(axes.u)) + glm::length(DVec3(axes.v)) + glm::length(DVec3(axes.w));
+}
+
+void aim_cells(const Light& light, const PhotonTargets& targets, PhotonLight& row) {
+  const double reach = reach_of(light);
   row.cells = cells_where([&](std::uint32_t code) {
     if (targets.everywhere) return true;
     const DVec3 middle = direction_of(row, cell_point(code, 0, 0));
@@ -107,23 +112,38 @@ void set_frame(const Frame3& frame, PhotonLight& row) {
   row.w = frame.w;
 }
 
-// Parallel light starts outside of the ball around the scene's bounds.
+// Parallel light starts outside of the ball around the scene's bounds, on a square before all targets.
 double plan_parallel(const Scene& scene, const Light& light, const PhotonTargets& targets, PhotonLight& row) {
-  if (scene.bounds().empty()) return 0;
-  const DVec3 low(scene.bounds().lower), high(scene.bounds().upper), middle = 0.5 * (low + high);
-  const double radius = std::max(0.505 * glm::length(high - low), 1e-6 * glm::length(middle));
+  if (scene.bounds().empty() || (targets.balls.empty() && !targets.everywhere)) return 0;
+  const PhotonTargets::Ball whole = ball_around(scene.bounds());
+  const PhotonTargets::Ball target = targets.everywhere ? whole : ball_around(targets);
   set_frame(frame_around(DVec3(light.direction)), row);
-  row.half_side = static_cast<float>(radius);
-  row.middle = middle - radius * DVec3(row.w);
+  const DVec3 w(row.w);
+  const double side = std::max(std::min(target.radius, whole.radius), 1e-6 * glm::length(whole.center));
+  const double ahead = 1.01 * whole.radius + glm::dot(target.center - whole.center, w);
+  row.half_side = static_cast<float>(1.005 * side);
+  row.middle = target.center - ahead * w;
   aim_parallel_cells(targets, row);
-  return 4 * radius * radius;
+  return 4 * double(row.half_side) * double(row.half_side);
 }
 
-// The solid angle of the light's directions.
+// The cap of the sphere of directions that a light sends photons to: a spot's own, or that around the
+// targets where it is smaller. Returns its solid angle.
 double plan_point(const Light& light, const PhotonTargets& targets, PhotonLight& row) {
   const bool spot = light.kind == LightKind::spot;
   set_frame(frame_around(spot ? DVec3(light.direction) : DVec3(0, 1, 0)), row);
   row.cap_height = spot ? 1.0F - spot_cone(light).rim : 2.0F;
+  if (!targets.everywhere && !targets.balls.empty()) {
+    const PhotonTargets::Ball target = ball_around(targets);
+    const DVec3 way = target.center - DVec3(light.position);
+    const double sine = 1.001 * (target.radius + reach_of(light)) / glm::length(way);
+    const double half_sine = std::sin(0.5 * std::asin(std::min(sine, 1.0)));
+    const auto height = static_cast<float>(2.002 * half_sine * half_sine);
+    if (sine < 1 && height < row.cap_height) {
+      set_frame(frame_around(way), row);
+      row.cap_height = height;
+    }
+  }
   aim_cells(light, targets, row);
   return 2 * std::numbers::pi * double(row.cap_height);
 }
@@ -133,8 +153,8 @@ double fade_factor(const Scene& scene, const Light& light) {
   if (light.kind == LightKind::directional) return 1;
   double d = 1;
   if (!scene.bounds().empty()) {
-    const DVec3 low(scene.bounds().lower), high(scene.bounds().upper);
-    d = std::max(glm::length(DVec3(light.position) - 0.5 * (low + high)), 0.25 * glm::length(high - low));
+    const PhotonTargets::Ball whole = ball_around(scene.bounds());
+    d = std::max(glm::length(DVec3(light.position) - whole.center), 0.5 * whole.radius);
   }
   const double strength = double(light.constant) + d * (double(light.linear) + d * double(light.quadratic));
   return strength > 0 ? d * d / strength : 1;

@@ -4,6 +4,7 @@
 #include "src/scene/shapes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace fastrt {
@@ -94,12 +95,28 @@ private:
 
 } // namespace
 
+PhotonTargets::Ball ball_around(const Aabb& box) {
+  const DVec3 low(box.lower), high(box.upper);
+  return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+}
+
+PhotonTargets::Ball ball_around(const PhotonTargets& targets) {
+  DVec3 low(INFINITY), high(-INFINITY);
+  for (const PhotonTargets::Ball& ball : targets.balls) {
+    low = glm::min(low, ball.center - ball.radius);
+    high = glm::max(high, ball.center + ball.radius);
+  }
+  PhotonTargets::Ball around{0.5 * (low + high), 0};
+  for (const PhotonTargets::Ball& ball : targets.balls)
+    around.radius = std::max(around.radius, glm::length(ball.center - around.center) + ball.radius);
+  return around;
+}
+
 PhotonTargets whole_scene(const Scene& scene) {
   PhotonTargets targets;
   targets.everywhere = scene.count_of(PrimitiveKind::plane) != 0;
   if (scene.bounds().empty()) return targets;
-  const DVec3 low(scene.bounds().lower), high(scene.bounds().upper);
-  targets.balls.push_back({0.5 * (low + high), 0.5 * glm::length(high - low)});
+  targets.balls.push_back(ball_around(scene.bounds()));
   return targets;
 }
 

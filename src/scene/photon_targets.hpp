@@ -17,6 +17,10 @@ struct PhotonTargets {
   bool everywhere = false;
 };
 
+// The ball around a box that is not empty, and one around all targets, of which there are some.
+PhotonTargets::Ball ball_around(const Aabb& box);
+PhotonTargets::Ball ball_around(const PhotonTargets& targets);
+
 PhotonTargets whole_scene(const Scene& scene);
 
 // Whatever reflects light or bends it, object by object.

@@ -50,7 +50,9 @@ FASTRT_INLINE void start_at_point(const PhotonJob& job, const LightRow& light, c
   rays.dir_x[i] = (from.u[0] * way.x + from.v[0] * way.y) + from.w[0] * way.z;
   rays.dir_y[i] = (from.u[1] * way.x + from.v[1] * way.y) + from.w[1] * way.z;
   rays.dir_z[i] = (from.u[2] * way.x + from.v[2] * way.y) + from.w[2] * way.z;
-  rays.strength[i] = light.spot != 0 ? spot_profile(light, way.z) : 1.0F;
+  const float cosine =
+      (rays.dir_x[i] * light.axis[0] + rays.dir_y[i] * light.axis[1]) + rays.dir_z[i] * light.axis[2];
+  rays.strength[i] = light.spot != 0 ? spot_profile(light, cosine) : 1.0F;
 }
 
 // Photons first .. first + count - 1 of the job's light.

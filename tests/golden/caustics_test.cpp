@@ -53,12 +53,12 @@ RenderSettings settings_for_optics() {
 TEST_P(CausticPictures, Mirror) {
   SceneBuilder builder;
   builder.add_light(beam({-1, 0, 0}));
-  add_quad(builder, {-2, 0, -2}, {4, 0, 0}, {0, 0, 4}, builder.add_material(dark_matt()));
+  add_quad(builder, {-0.5F, 0, -0.5F}, {1, 0, 0}, {0, 0, 1}, builder.add_material(dark_matt()));
   add_quad(builder, {-0.5F, 1.5F, -0.5F}, {1, 1, 0}, {0, 0, 1}, builder.add_material(mirror(0.75F)));
   const Scene scene = builder.build();
   const Camera camera{{2.5F, 1, 0}, {0, 0, 0}, {0, 1, 0}, 10};
   for (const bool forward : {true, false}) {
-    const Frame frame = by_photons(scene, camera, settings_for_optics(), forward, forward ? 100000 : 20000);
+    const Frame frame = by_photons(scene, camera, settings_for_optics(), forward, forward ? 150000 : 20000);
     EXPECT_NEAR(light_in_the_middle(frame), 0.75, 0.02) << forward;
   }
 }
