@@ -14,6 +14,11 @@
 
 namespace fastrt {
 
+// whitted: rays from the eye, back to the lights. forward: photons from the lights, which bounce, bend and
+// scatter, and whose light is collected on the image plane wherever they meet a surface that is not all
+// mirror or glass; what such a surface shows of the rest is not seen. Needs a pinhole or parallel rays.
+enum class Integrator { whitted, forward };
+
 // Columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of a picture.
 struct Crop {
   int x0, y0, x1, y1;
@@ -34,17 +39,31 @@ struct RenderSettings {
   int light_samples = 16;              // shadow rays to each light with a size, 1..1024
   int max_depth = 8;                   // bounces after the camera ray; 0 traces none
   float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced
-  std::vector<Aov> aovs; // which to record; with several samples this takes one ray more a pixel
-  int threads = 0;       // 0 takes every core
-  // Both may be null. `cancelled` is read between tiles; `progress` gets the share of tiles done, 0..1, from
-  // one thread at a time.
+  Integrator integrator = Integrator::whitted;
+  std::int64_t photons = 1000000; // of the forward integrator, of all lights together, 1..2^30
+  // Above 0: so many photons go through mirrors and glass before the picture is made, and the surfaces that
+  // they meet show their light. Bodies that bend light then throw whole shadows: photons carry what they let
+  // through. whitted alone, at most 10^8.
+  std::int64_t caustic_photons = 0;
+  float caustic_radius = 0; // over which they are averaged, in the scene's unit; 0: chosen by their density
+  std::vector<Aov> aovs;    // which to record; with several samples this takes one ray more a pixel
+  int threads = 0;          // 0 takes every core
+  // Both may be null. `cancelled` is read between tiles and photons; `progress` gets the share of them that
+  // is done, 0..1, from one thread at a time.
   const std::atomic<bool>* cancelled = nullptr;
   std::function<void(double)> progress;
 };
 
+// Of photons: each that leaves a light is primary, each way from a surface to the eye is a shadow ray, and
+// what bounces off or scatters is reflected.
 struct RayCounts {
   std::uint64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;
   std::uint64_t total() const noexcept { return primary + shadow + reflected + refracted; }
+  RayCounts& operator+=(const RayCounts& other) noexcept {
+    primary += other.primary, shadow += other.shadow;
+    reflected += other.reflected, refracted += other.refracted;
+    return *this;
+  }
 };
 
 // A finished picture, or the part of it that was asked for: linear RGB, three floats a pixel, rows from the

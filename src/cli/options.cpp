@@ -3,6 +3,7 @@
 #include "src/cli/options.hpp"
 
 #include "src/cli/parse.hpp"
+#include "src/film/frame.hpp"
 
 #include <fastrt/error.hpp>
 #include <fastrt/isa.hpp>
@@ -52,8 +53,16 @@ std::string help_text(const CLI::App& app) {
   replace_all(text, "\n\n\n", "\n\n");
   replace_all(text, "--stats{text} [=text|json]  ", "--stats[=text|json]         ");
   replace_all(text, "--signature{/} [=FILE]  ", "--signature[=FILE]      ");
+  replace_all(text, "--caustics{/} [=N]  ", "--caustics[=N]      ");
   replace_all(text, "\nUsage:", "\n\nUsage:");
   return text;
+}
+
+constexpr std::int64_t usual_caustic_photons = 200000;
+
+std::int64_t caustic_photons(const std::string& text) {
+  if (text.empty()) return 0;
+  return text == "/" ? usual_caustic_photons : parse_integer("--caustics", text, 1, most_caustic_photons);
 }
 
 StatsFormat stats_format(const std::string& text) {
@@ -201,8 +210,47 @@ void add_view_options(OptionAdder& add, Options& options) {
             });
 }
 
+void add_photon_options(CLI::App& app, OptionAdder& add, Options& options, std::string& caustics) {
+  add.group("Photons");
+  add.value("--integrator", "NAME", "whitted, or forward: rays from the lights to the eye [whitted]",
+            [&](const std::string& name, const std::string& text) {
+              options.integrator = parse_integrator(name, text);
+            });
+  add.value("--photons", "N", "How many rays forward casts from the lights [1000000]",
+            [&](const std::string& name, const std::string& text) {
+              options.photons = parse_integer(name, text, 1, most_photons);
+            });
+  // A flag with a value: only what follows it after '=' is its.
+  app.add_flag("--caustics{/}", caustics, "Light by mirrors and glass, from N photons [200000]")
+      ->option_text("[=N]")
+      ->group("Photons");
+  add.value("--caustic-radius", "R", "What it is averaged over [chosen by the photons' density]",
+            [&](const std::string& name, const std::string& text) {
+              options.caustic_radius = parse_length(name, text);
+            });
+}
+
+// Photons are sent by the forward integrator, and by the other for caustics.
+void check_photons_together(Options& options) {
+  const bool forward = options.integrator == Integrator::forward;
+  if (forward && options.caustic_photons != 0)
+    throw UsageError("--caustics: the forward integrator makes them by itself");
+  if (forward && options.adaptive > 0)
+    throw UsageError("--adaptive: the forward integrator takes no samples of pixels");
+  if (forward && options.aperture_radius > 0)
+    throw UsageError("--aperture: the forward integrator needs a pinhole or parallel rays");
+  if (forward && options.samples_per_pixel != 1)
+    options.warnings.emplace_back(
+        "--spp: the forward integrator collects light all over a pixel; give --photons");
+  if (!forward && options.photons)
+    options.warnings.emplace_back("--photons says nothing without --integrator forward");
+  if (options.caustic_photons == 0 && options.caustic_radius)
+    options.warnings.emplace_back("--caustic-radius says nothing without --caustics");
+}
+
 // What options ask for together.
-void check_together(const Options& options) {
+void check_together(Options& options) {
+  check_photons_together(options);
   if (options.given.contains("--resolution")) check_crop(options);
   if (options.orthographic && options.aperture_radius > 0)
     throw UsageError("--aperture: parallel rays go through no lens");
@@ -298,6 +346,8 @@ Options parse_options(int argc, const char* const* argv) {
   std::string signature;
   add_image_options(app, add, options, signature);
   add_sampling_options(add, options);
+  std::string caustics;
+  add_photon_options(app, add, options, caustics);
   add_view_options(add, options);
   add_light_options(app, add, options);
   add_engine_options(add, options);
@@ -317,6 +367,7 @@ Options parse_options(int argc, const char* const* argv) {
     throw UsageError(std::string(error.what()));
   }
   options.stats = stats_format(stats);
+  options.caustic_photons = caustic_photons(caustics);
   check_together(options);
   if (!signature.empty()) options.signature = signature == "/" ? "" : signature;
   return options;

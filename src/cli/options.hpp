@@ -33,6 +33,10 @@ struct Options {
   std::uint32_t seed = 0;
   float adaptive = 0; // 0: not
   int most_samples = 0;
+  Integrator integrator = Integrator::whitted;
+  std::optional<std::int64_t> photons; // of the forward integrator
+  std::int64_t caustic_photons = 0;    // 0: no caustics
+  std::optional<float> caustic_radius; // empty: by their density
   int max_depth = 8;
   float min_contribution = 1.0F / 256;
 

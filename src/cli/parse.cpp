@@ -228,6 +228,12 @@ PixelFilter parse_filter(std::string_view option, std::string_view text) {
   refuse(option, text, "box, tent, gaussian or mitchell");
 }
 
+Integrator parse_integrator(std::string_view option, std::string_view text) {
+  if (text == "whitted") return Integrator::whitted;
+  if (text == "forward") return Integrator::forward;
+  refuse(option, text, "whitted or forward");
+}
+
 std::vector<Aov> parse_aovs(std::string_view option, std::string_view text) {
   std::vector<Aov> aovs;
   std::string known = "all";

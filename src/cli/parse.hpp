@@ -54,6 +54,9 @@ Window parse_window(std::string_view option, std::string_view text);
 // "box", "tent", "gaussian" or "mitchell".
 PixelFilter parse_filter(std::string_view option, std::string_view text);
 
+// "whitted" or "forward".
+Integrator parse_integrator(std::string_view option, std::string_view text);
+
 // "id,depth,normal", or "all"; each kept once.
 std::vector<Aov> parse_aovs(std::string_view option, std::string_view text);
 

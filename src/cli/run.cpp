@@ -58,7 +58,8 @@ int choose_threads(const Options& options) {
 // Colour, primitive id and AOVs of every pixel, twice if there are two renderings.
 void check_image_size(const Options& options) {
   std::uint64_t values = 4;
-  if (options.adaptive > 0) values += 11; // sums, counts, what the eye sees
+  if (options.adaptive > 0) values += 11;                     // sums, counts, what the eye sees
+  if (options.integrator == Integrator::forward) values += 6; // sums of 64 bits
   for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
   const std::uint64_t pixel_bytes = values * sizeof(float) * (options.verify ? 2 : 1);
   const int width = options.crop ? options.crop->x1 - options.crop->x0 : options.width;
@@ -97,6 +98,10 @@ RenderSettings render_settings(const Options& options, int threads) {
   settings.adaptive = options.adaptive;
   settings.most_samples = options.most_samples;
   settings.light_samples = options.light_samples;
+  settings.integrator = options.integrator;
+  settings.photons = options.photons.value_or(settings.photons);
+  settings.caustic_photons = options.caustic_photons;
+  settings.caustic_radius = options.caustic_radius.value_or(0.0F);
   settings.max_depth = options.max_depth;
   settings.min_contribution = options.min_contribution;
   settings.aovs = aovs_to_render(options);

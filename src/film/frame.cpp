@@ -10,6 +10,25 @@
 
 namespace fastrt {
 
+namespace {
+
+void check_photons(const RenderSettings& settings) {
+  if (settings.photons < 1 || settings.photons > most_photons)
+    throw UsageError("the photons must be from 1 to 2^30, not " + std::to_string(settings.photons));
+  if (settings.caustic_photons < 0 || settings.caustic_photons > most_caustic_photons)
+    throw UsageError("the photons of caustics must be from 0 to 100000000, not " +
+                     std::to_string(settings.caustic_photons));
+  if (!(settings.caustic_radius >= 0.0F && std::isfinite(settings.caustic_radius)))
+    throw UsageError("the radius of caustics must not be negative");
+  if (settings.integrator != Integrator::forward) return;
+  if (settings.caustic_photons != 0)
+    throw UsageError("the forward integrator makes caustics by itself: there are none to add");
+  if (settings.adaptive > 0.0F)
+    throw UsageError("the forward integrator takes no samples of pixels: there is nothing to adapt");
+}
+
+} // namespace
+
 void check(const RenderSettings& settings) {
   if (settings.width < 1 || settings.width > 65536 || settings.height < 1 || settings.height > 65536)
     throw UsageError("picture size " + std::to_string(settings.width) + "x" +
@@ -31,6 +50,7 @@ void check(const RenderSettings& settings) {
                      std::to_string(settings.samples_per_pixel) + " of each pixel");
   if (settings.light_samples < 1 || settings.light_samples > 1024)
     throw UsageError("light samples must be from 1 to 1024, not " + std::to_string(settings.light_samples));
+  check_photons(settings);
 }
 
 Crop part_of(const RenderSettings& settings) {
@@ -88,10 +108,7 @@ bool FrameProgress::stopped() {
 
 void FrameProgress::part_done(const RayCounts& rays) {
   const std::lock_guard lock(mutex_);
-  rays_.primary += rays.primary;
-  rays_.shadow += rays.shadow;
-  rays_.reflected += rays.reflected;
-  rays_.refracted += rays.refracted;
+  rays_ += rays;
   ++parts_done_;
   if (settings_->progress) settings_->progress(static_cast<double>(parts_done_) / parts_);
 }

@@ -3,6 +3,7 @@
 // picks a table once; a call then does a batch or a tile, never a single ray.
 #pragma once
 
+#include "src/trace/photon_job.hpp"
 #include "src/trace/ray_batch.hpp"
 #include "src/trace/scene_view.hpp"
 #include "src/trace/tile_job.hpp"
@@ -32,6 +33,9 @@ struct KernelTable {
   void (*hit_weights)(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, float* u,
                       float* v) noexcept;
   void (*render_tile)(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept;
+  // Follows the job's photons. Returns whether some are left because the store is full: to be called again
+  // when it has been emptied.
+  bool (*trace_photons)(const PhotonJob& job, PhotonScratch& scratch, TileRayCounts& counts) noexcept;
 
   // hit[i] is 1 where pair i meets at t_min < t[i] < infinity (t: 0 elsewhere). u and v: weights, or null.
   void (*meet_triangles)(const PairColumns& pairs, std::uint8_t* hit, float* t, float* u, float* v) noexcept;

@@ -39,7 +39,8 @@ Node child_of(const Node& parent, const Surface& surface, const Vec3& weight, co
 // The lecture recurses. A stack gives the same order - the hit, all that its mirror shows, all that shines
 // through - and has no limit but memory: what is to be traced first is pushed last.
 Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, const RenderSettings& settings,
-               const Surroundings& around, const LightQuestion& question, RayCounts& rays, Sight& sight) {
+               const Surroundings& around, const LightQuestion& question, const PhotonMap* caustics,
+               RayCounts& rays, Sight& sight) {
   const auto worth_tracing = [&](const Vec3& weight) {
     return largest(weight) > 0.0F && largest(weight) >= settings.min_contribution;
   };
@@ -64,7 +65,7 @@ Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, cons
     LightSampling sampling{question, settings.light_samples, node.media, around.lights};
     sampling.question.depth = static_cast<std::uint32_t>(node.depth);
     Vec3 light_left{0.0F};
-    sum = sum + weight * shade(scene, finder, surface, sampling, rays, light_left);
+    sum = sum + weight * shade(scene, finder, surface, sampling, caustics, rays, light_left);
     if (node.depth == 0) {
       sight.surface = surface;
       sight.light_left = light_left;

@@ -5,6 +5,7 @@
 #include "src/film/filter_table.hpp"
 #include "src/film/frame.hpp"
 #include "src/film/sampling.hpp"
+#include "src/reference/photons.hpp"
 #include "src/scene/threads.hpp"
 
 #include <exception>
@@ -24,6 +25,7 @@ struct Job {
   Crop part; // of the picture: the frame
   Footprint footprint;
   Surroundings around;
+  const PhotonMap* caustics; // null: none
 };
 
 // lens: a point of the unit disk.
@@ -59,8 +61,8 @@ Vec3 trace_center(const Job& job, int x, int y, RayCounts& rays, Sight& sight) {
   ++rays.primary;
   const Ray ray = camera_ray(job.camera, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F,
                              Vec2(0.0F), job.footprint);
-  return ray_trace(*job.scene, *job.finder, ray, *job.settings, job.around, question_of(job, x, y, 0), rays,
-                   sight);
+  return ray_trace(*job.scene, *job.finder, ray, *job.settings, job.around, question_of(job, x, y, 0),
+                   job.caustics, rays, sight);
 }
 
 Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sight& sight) {
@@ -74,7 +76,7 @@ Vec3 trace_sample(const Job& job, int x, int y, int sample, RayCounts& rays, Sig
   const Ray ray = camera_ray(job.camera, (static_cast<float>(x) + 0.5F) + offset.x,
                              (static_cast<float>(y) + 0.5F) + offset.y, {lens.x, lens.y}, job.footprint);
   return ray_trace(*job.scene, *job.finder, ray, *job.settings, job.around, question_of(job, x, y, sample),
-                   rays, sight);
+                   job.caustics, rays, sight);
 }
 
 std::size_t index_of(const Frame& frame, int x, int y) {
@@ -174,19 +176,30 @@ void render_adaptively(const Job& job, FrameProgress& progress, Frame& frame) {
 
 Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
              const RenderSettings& settings) {
+  if (settings.integrator == Integrator::forward) return render_forward(scene, finder, camera, settings);
   check(settings);
   const Crop part = part_with_margin(settings);
   const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
-  const Job job{&scene,
-                &finder,
-                &settings,
-                camera_frame,
-                filter_of(settings.filter),
-                part,
-                camera_footprint(camera_frame, settings.samples_per_pixel),
-                surroundings_of(scene, finder, camera_frame, settings.width, settings.height)};
+  Job job{&scene,
+          &finder,
+          &settings,
+          camera_frame,
+          filter_of(settings.filter),
+          part,
+          camera_footprint(camera_frame, settings.samples_per_pixel),
+          surroundings_of(scene, finder, camera_frame, settings.width, settings.height),
+          nullptr};
   Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
-  FrameProgress progress(settings, frame.height * (1 + most_rounds(settings)));
+  PhotonPlan plan;
+  if (settings.caustic_photons > 0) plan = plan_caustic_photons(scene, settings.caustic_photons);
+  const std::vector<PhotonChunk> chunks = photon_chunks(plan);
+  FrameProgress progress(settings,
+                         frame.height * (1 + most_rounds(settings)) + static_cast<int>(chunks.size()));
+  PhotonMap caustics;
+  if (settings.caustic_photons > 0) {
+    caustics = trace_caustics(scene, finder, plan, chunks, settings, progress);
+    job.caustics = &caustics;
+  }
   if (settings.adaptive > 0.0F)
     render_adaptively(job, progress, frame);
   else

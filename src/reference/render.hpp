@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/film/light_sampling.hpp"
+#include "src/film/photon_map.hpp"
 #include "src/reference/hit_finder.hpp"
 #include "src/reference/media.hpp"
 #include "src/reference/surface.hpp"
@@ -25,9 +26,10 @@ struct Sight {
 };
 
 // What one ray from the camera brings back: the lecture's rayTrace. around: of the camera and the lights.
-// question: of its pixel and sample. Adds the rays below it to `rays`.
+// question: of its pixel and sample. Adds the rays below it to `rays`. caustics: null for none.
 Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, const RenderSettings& settings,
-               const Surroundings& around, const LightQuestion& question, RayCounts& rays, Sight& sight);
+               const Surroundings& around, const LightQuestion& question, const PhotonMap* caustics,
+               RayCounts& rays, Sight& sight);
 
 // The AOVs that the frame holds, at one pixel. ray_count: traced for it.
 void record_aovs(const Scene& scene, const Sight& sight, std::uint64_t ray_count, std::size_t pixel,

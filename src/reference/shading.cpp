@@ -2,6 +2,7 @@
 #include "src/reference/shading.hpp"
 
 #include "src/reference/arithmetic.hpp"
+#include "src/reference/photons.hpp"
 #include "src/reference/textures.hpp"
 #include "src/scene/light_meshes.hpp"
 #include "src/scene/light_numbers.hpp"
@@ -71,10 +72,11 @@ Ray shadow_ray(const Light& light, const LightPoint& point, const Surface& surfa
   return ray;
 }
 
-// What is left of the light along a shadow ray that starts in `media`: begins as 1, and every stretch through
-// a medium and every surface on the way take their parts. An endless stretch takes none: whatever surface
-// should have ended it is missing.
-Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media media) {
+} // namespace
+
+// Every stretch through a medium takes its part. An endless stretch takes none: whatever surface should have
+// ended it is missing.
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media media, bool bodies_block) {
   if (!scene.has_transmission()) return finder.any(ray) ? Vec3(0.0F) : Vec3(1.0F);
   const float length = std::sqrt(glm::dot(ray.direction, ray.direction));
   Vec3 left{1.0F};
@@ -82,7 +84,7 @@ Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media med
     const std::uint32_t index = scene.material_of(static_cast<std::uint32_t>(hit.primitive), hit.instance);
     const Material& material = scene.materials()[index];
     left = faded(left, scene.materials(), media, (hit.t - ray.t_min) * length);
-    if (!is_transmissive(material)) return Vec3(0.0F);
+    if (!is_transmissive(material) || (bodies_block && !material.thin)) return Vec3(0.0F);
     left = left * transmittance(material, opacity_at(scene, ray, hit));
     if (left == Vec3(0.0F)) return left;
     if (!material.thin) media = media.crossed(index);
@@ -91,6 +93,8 @@ Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media med
   if (ray.t_max < infinity) left = faded(left, scene.materials(), media, (ray.t_max - ray.t_min) * length);
   return left;
 }
+
+namespace {
 
 // A point of a light with a size. mesh: of a light that is one.
 LightPoint point_of(const Light& light, const LightMesh& mesh, const LightQuestion& question,
@@ -126,9 +130,9 @@ float spot_share(const Light& light, const Vec3& to_light) {
 // What every light has to say of one surface.
 class Lighting {
 public:
-  Lighting(const Scene& scene, const HitFinder& finder, const Surface& surface)
-      : scene_(scene), finder_(finder), surface_(surface), material_(scene.materials()[surface.material]),
-        finish_(finish_of(material_, surface)) {}
+  Lighting(const Scene& scene, const HitFinder& finder, const Surface& surface, bool bodies_block)
+      : scene_(scene), finder_(finder), surface_(surface), bodies_block_(bodies_block),
+        material_(scene.materials()[surface.material]), finish_(finish_of(material_, surface)) {}
 
   const Finish& finish() const { return finish_; }
   // Adds what a light, or a point of it, gives to `lit`. media: what its shadow ray starts in.
@@ -139,6 +143,7 @@ private:
   const Scene& scene_;
   const HitFinder& finder_;
   const Surface& surface_;
+  bool bodies_block_;
   const Material& material_;
   Finish finish_;
 };
@@ -171,7 +176,7 @@ void Lighting::add(const Light& light, const LightPoint& point, const Media& med
   Vec3 shadow{1.0F};
   if (light.casts_shadows) {
     ++rays.shadow;
-    shadow = let_through(scene_, finder_, shadow_ray(light, point, surface_, to_light), media);
+    shadow = let_through(scene_, finder_, shadow_ray(light, point, surface_, to_light), media, bodies_block_);
     light_left = light_left + (point.share != 0.0F ? shadow * point.share : shadow);
   }
   lit = lit + (phong_model(material_, finish_, surface_, to_light, cos_n) * intensity) * shadow;
@@ -180,8 +185,8 @@ void Lighting::add(const Light& light, const LightPoint& point, const Media& med
 } // namespace
 
 Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, const LightSampling& sampling,
-           RayCounts& rays, Vec3& light_left) {
-  const Lighting lighting(scene, finder, surface);
+           const PhotonMap* caustics, RayCounts& rays, Vec3& light_left) {
+  const Lighting lighting(scene, finder, surface, caustics != nullptr);
   const Finish& finish = lighting.finish();
   if (scene.materials()[surface.material].unlit) return finish.emission + finish.diffuse;
 
@@ -202,6 +207,7 @@ Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, 
     }
     ++question.light;
   }
+  if (caustics != nullptr) lit = lit + finish.diffuse * caustic_light(*caustics, surface);
   return finish.emission + finish.opacity * lit;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/film/light_sampling.hpp"
+#include "src/film/photon_map.hpp"
 #include "src/reference/hit_finder.hpp"
 #include "src/reference/media.hpp"
 #include "src/reference/surface.hpp"
@@ -36,9 +37,15 @@ struct LightSampling {
   const std::vector<Media>& light_media; // of each light
 };
 
+// What is left of the light along a ray between a light or the eye and a surface, that starts in `media`:
+// begins as 1, and every stretch through a medium and every surface on the way take their parts.
+// bodies_block: those that bend light stop all of it, because photons carry what they let through.
+Vec3 let_through(const Scene& scene, const HitFinder& finder, Ray ray, Media media, bool bodies_block);
+
 // The local component of the lecture's rtShade: emission, ambient, and every light that is not in shadow.
 // Each shadow that is asked for adds one to rays.shadow, and what it leaves of the light to light_left.
+// caustics: null for none.
 Vec3 shade(const Scene& scene, const HitFinder& finder, const Surface& surface, const LightSampling& sampling,
-           RayCounts& rays, Vec3& light_left);
+           const PhotonMap* caustics, RayCounts& rays, Vec3& light_left);
 
 } // namespace fastrt::reference

@@ -5,6 +5,8 @@
 #include "src/film/adaptive.hpp"
 #include "src/film/filter_table.hpp"
 #include "src/film/frame.hpp"
+#include "src/render/caustics.hpp"
+#include "src/render/forward.hpp"
 #include "src/scene/threads.hpp"
 #include "src/trace/point_media.hpp"
 
@@ -14,6 +16,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -167,17 +170,29 @@ void render_adaptively(const Tracer::Parts& parts, TileJob job, const RenderSett
   progress.rest_is_done();
 }
 
+// Before any tile.
+void show_caustics(Caustics& caustics, FrameProgress& progress, TileJob& job) {
+  caustics.trace(progress);
+  job.scene = &caustics.scene();
+  job.caustics = &caustics.map();
+}
+
 } // namespace
 
 Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {
   const Tracer::Parts& parts = tracer.parts();
   if (parts.scalar_bvh) return reference::render(parts.scene, *parts.scalar_bvh, camera, settings);
+  if (settings.integrator == Integrator::forward) return render_forward(tracer, camera, settings);
   check(settings);
   const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
   const Crop part = part_with_margin(settings);
   Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
-  const TileJob job = make_job(parts, camera_frame, settings, part, frame);
-  FrameProgress progress(settings, tile_count(job) * (1 + most_rounds(settings)));
+  TileJob job = make_job(parts, camera_frame, settings, part, frame);
+  std::optional<Caustics> caustics;
+  if (settings.caustic_photons > 0) caustics.emplace(parts, settings);
+  FrameProgress progress(settings,
+                         tile_count(job) * (1 + most_rounds(settings)) + (caustics ? caustics->parts() : 0));
+  if (caustics) show_caustics(*caustics, progress, job);
   if (settings.adaptive > 0.0F)
     render_adaptively(parts, job, settings, frame, progress);
   else

@@ -38,6 +38,7 @@ MaterialRow row_of(const Material& material) {
   row.has_absorption = any_not_zero(material.absorption);
   copy(material.transmission, row.transmission);
   if (material.opacity_texture != no_texture) row.has_transmit = any_positive(material.transmission);
+  row.passes_light = row.has_transmit;
   if (row.has_transmit == 0) row.transmit[0] = row.transmit[1] = row.transmit[2] = 0.0F;
   return row;
 }

@@ -105,6 +105,7 @@ struct MaterialRow {
   std::uint32_t has_specular, has_mirror, has_transmit, has_absorption;
   const SurfaceTextures* textures; // null: the same everywhere
   float transmission[3];           // Kt
+  std::uint32_t passes_light;      // straight through, to what it would shadow
 };
 
 // A triangle of a light that is a mesh.

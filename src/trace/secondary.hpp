@@ -102,6 +102,10 @@ struct KeptColumns {
   bool media, width, inner;
 };
 
+FASTRT_INLINE KeptColumns kept_columns(const ShadingView& scene) {
+  return {scene.has_transmission != 0, scene.has_textures != 0, scene.shapes.instance_count != 0};
+}
+
 // One packet's worth of new rays, before the ones worth tracing are picked.
 struct NewRays {
   alignas(64) float origin[3][widest], dir[3][widest], weight[3][widest];
@@ -148,8 +152,7 @@ FASTRT_INLINE std::uint32_t worth_tracing(const PathV& weight, float min_contrib
 FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, const SurfaceBatch& s,
                                  const MaterialRow& row, std::uint32_t bits, int i, PathBatch& reflected,
                                  PathBatch& refracted) {
-  const KeptColumns keep{job.scene->shading.has_transmission != 0, job.scene->shading.has_textures != 0,
-                         job.scene->shading.shapes.instance_count != 0};
+  const KeptColumns keep = kept_columns(job.scene->shading);
   MediaLanes media{};
   const bool bends = is_medium(row);
   if (bends)

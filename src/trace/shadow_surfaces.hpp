@@ -28,7 +28,7 @@ FASTRT_INLINE void trace_opaque_shadows(const GeometryView& scene, const RayBatc
 FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, const HitBatch& hits, int i,
                                 LightBatch& light) {
   const MaterialRow& row = scene.materials[material_of_hit(scene, hits, i)];
-  if (row.has_transmit == 0) {
+  if (row.passes_light == 0) {
     light.visible_r[i] = light.visible_g[i] = light.visible_b[i] = 0.0F;
     return false;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/film/sampling.hpp"
+#include "src/trace/photon_map_view.hpp"
 #include "src/trace/ray_batch.hpp"
 #include "src/trace/scene_view.hpp"
 
@@ -128,6 +129,7 @@ struct TileJob {
   float* rgb;              // of the frame
   std::int32_t* primitive; // of the frame
   AovTargets aovs;
+  const PhotonMapView* caustics; // null: none
 };
 
 struct TileRayCounts {

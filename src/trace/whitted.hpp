@@ -6,6 +6,7 @@
 #pragma once
 
 #include "src/trace/aov.hpp"
+#include "src/trace/caustics.hpp"
 #include "src/trace/secondary.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -114,6 +115,7 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   find_closest_hits(scene.geometry, rays, scratch.hits);
   see_surfaces(job, rays, scratch);
   counts.shadow += gather_light(job, rays, scratch);
+  if (job.caustics != nullptr) gather_caustics(job, rays, scratch);
   if (scratch.recording) record_batch(job, rays, scratch);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);

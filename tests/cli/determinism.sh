@@ -52,6 +52,25 @@ verify_every_scene() {
   done
 }
 
+# Light from its source: whatever follows it, and however many.
+photons() {
+  local options isa
+  for options in '--integrator forward --photons 20000' '--caustics=5000'; do
+    # shellcheck disable=SC2086
+    expect 0 "$scenes/caustic.nff" -r 48x32 -q $options -o first.pfm --verify
+    # shellcheck disable=SC2086
+    for isa in $(isas); do
+      "$fastrt" "$scenes/caustic.nff" -r 48x32 -q $options -t 3 --isa "$isa" -o other.pfm
+      cmp first.pfm other.pfm
+    done
+    # shellcheck disable=SC2086
+    "$fastrt" "$scenes/caustic.nff" -r 48x32 -q $options --seed 1 -o other.pfm
+    ! cmp -s first.pfm other.pfm || fail "the seed changes nothing"
+  done
+  expect 0 "$scenes/caustic.nff" -r 8x8 -o none --photons 10 --caustic-radius 1
+  [ "$(grep -c 'says nothing without' err)" = 2 ] || fail "no warnings about options without effect"
+}
+
 scenes_are_small() {
   [ -f "$scenes/spheres.obj" ]
   [ -z "$(find "$scenes" -type f -size +300k)" ] || fail "a scene is larger than 300 KiB"

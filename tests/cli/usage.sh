@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 help_is_grouped() {
   expect 0 --help
-  for text in 'Usage: fastrt' 'Image:' 'Sampling' 'Camera' 'Engine:' 'Report:' 'Examples:' '--spp' '--verify'; do
+  for text in 'Usage: fastrt' 'Image:' 'Sampling' 'Photons:' 'Camera' 'Engine:' 'Report:' 'Examples:' '--spp' '--verify'; do
     grep -qF -- "$text" out || fail "no '$text'"
   done
   expect 0 -h
@@ -55,6 +55,20 @@ options_out_of_range() {
 --fov nan
 --seed -1
 --filter cone
+--integrator backward
+--integrator
+--photons 0
+--photons -1
+--photons 1073741825
+--photons 1e6
+--caustics=0
+--caustics=many
+--caustics=100000001
+--caustic-radius 0
+--caustic-radius nan
+--integrator forward --caustics
+--integrator forward --adaptive 0.1
+--integrator forward --aperture 0.1 -s 4
 --eye 1,2
 --eye 1,2,inf
 --ambient -1,0,0
