@@ -75,7 +75,9 @@ private:
     shape.add(file_, fields, scene_);
     if (!placed || row_counts(scene_.desc) == begin) return;
     const TomlPart part{scene_.add_prototype(begin), TomlMap{}};
-    for (const TomlMap& map : read_placements(fields)) push(fields, part, map, no_index, no_index);
+    const std::vector<TomlMap> placements = read_placements(fields);
+    check_room(fields, placements.size());
+    for (const TomlMap& map : placements) push(part, map, no_index, no_index);
   }
 
   void read_instance(const TomlNode& node) {
@@ -84,16 +86,20 @@ private:
     const auto material = fields.find("material");
     const auto name = fields.find("name");
     const std::uint32_t own = material ? scene_.material(*material) : no_index;
-    for (const TomlMap& map : placements_or_one(fields)) {
+    const std::vector<TomlMap> placements = placements_or_one(fields);
+    check_room(fields, placements.size() * of.size());
+    for (const TomlMap& map : placements) {
       const std::uint32_t object = name ? scene_.add_object(name->text()) : no_index;
-      for (const TomlPart& part : of) push(fields, part, map, own, object);
+      for (const TomlPart& part : of) push(part, map, own, object);
     }
   }
 
-  void push(const TomlFields& fields, TomlPart part, const TomlMap& map, std::uint32_t material,
-            std::uint32_t object) {
-    if (parts_.size() == most_parts)
+  void check_room(const TomlFields& fields, std::size_t count) const {
+    if (count > most_parts - parts_.size())
       fields.fail(fields.place(), "a prototype has more than " + std::to_string(most_parts) + " parts");
+  }
+
+  void push(TomlPart part, const TomlMap& map, std::uint32_t material, std::uint32_t object) {
     part.to_whole = after(map, part.to_whole);
     if (material != no_index) part.material = material;
     if (object != no_index) part.object = object;
