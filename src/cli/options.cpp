@@ -124,17 +124,17 @@ void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::s
 }
 
 void add_sampling_options(OptionAdder& add, Options& options) {
-  add.group("Sampling");
-  add.value("-s,--spp", "N", "Samples per pixel [the scene's, or 1: the pixel's centre]",
+  add.group("Sampling (what is not given is the scene's, or as in brackets)");
+  add.value("-s,--spp", "N", "Samples per pixel [1: the pixel's centre]",
             [&](const std::string& name, const std::string& text) {
               options.samples_per_pixel = static_cast<int>(parse_integer(name, text, 1, most_samples));
             });
   add.value(
-      "--filter", "NAME", "How samples make a pixel: box, tent, gaussian or mitchell [the scene's, or tent]",
+      "--filter", "NAME", "How samples make a pixel: box, tent, gaussian or mitchell [tent]",
       [&](const std::string& name, const std::string& text) { options.filter = parse_filter(name, text); });
-  add.value("--adaptive", "T", "More samples where neighbours differ by more than T, 0 to 1",
+  add.value("--adaptive", "T", "More samples where neighbours differ by more than T, 0 to 1 [0: off]",
             [&](const std::string& name, const std::string& text) {
-              options.adaptive = parse_length(name, text);
+              options.adaptive = text == "0" ? 0 : parse_length(name, text);
               if (options.adaptive > 1) throw UsageError(name + ": '" + text + "' is greater than 1");
             });
   add.value("--max-spp", "N", "How many those may get [16 times --spp]",
@@ -202,17 +202,12 @@ void add_view_options(OptionAdder& add, Options& options) {
 }
 
 // What options ask for together.
-void check_together(Options& options) {
+void check_together(const Options& options) {
   if (options.given.contains("--resolution")) check_crop(options);
   if (options.orthographic && options.aperture_radius > 0)
     throw UsageError("--aperture: parallel rays go through no lens");
   if (options.most_samples != 0 && options.most_samples < options.samples_per_pixel)
     throw UsageError("--max-spp: less than --spp");
-  if (options.most_samples != 0 && options.adaptive == 0)
-    options.warnings.emplace_back("--max-spp says nothing without --adaptive");
-  if (options.aperture_radius > 0 && options.samples_per_pixel == 1 && options.adaptive == 0)
-    options.warnings.emplace_back("--aperture: one sample a pixel goes through the middle of the lens; give "
-                                  "--spp");
 }
 
 void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {

@@ -200,6 +200,7 @@ int run(const Options& given, Clock::time_point start) {
   SceneDesc desc = read_scene(options, stats.threads);
   const Aabb bounds = bounds_of(desc);
   take_picture_settings(desc, options);
+  for (const std::string& warning : sampling_warnings(options)) warn(options, warning);
   check_image_size(options);
   check_crop(options);
   const Camera camera = choose_camera(options, bounds, desc);

@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 help_is_grouped() {
   expect 0 --help
-  for text in 'Usage: fastrt' 'Image:' 'Sampling:' 'Camera' 'Engine:' 'Report:' 'Examples:' '--spp' '--verify'; do
+  for text in 'Usage: fastrt' 'Image:' 'Sampling' 'Camera' 'Engine:' 'Report:' 'Examples:' '--spp' '--verify'; do
     grep -qF -- "$text" out || fail "no '$text'"
   done
   expect 0 -h

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/options.hpp"
+#include "src/cli/scene_defaults.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -130,8 +131,53 @@ TEST(CliOptions, Views) {
 }
 
 TEST(CliOptions, WhatDoesNothingIsAWarning) {
-  EXPECT_EQ(parse({"--aperture", "0.1", "a.obj"}).warnings.size(), 1U);
-  EXPECT_EQ(parse({"--max-spp", "9", "a.obj"}).warnings.size(), 1U);
+  EXPECT_EQ(sampling_warnings(parse({"--aperture", "0.1", "a.obj"})).size(), 1U);
+  EXPECT_EQ(sampling_warnings(parse({"--max-spp", "9", "a.obj"})).size(), 1U);
+  EXPECT_TRUE(sampling_warnings(parse({"--max-spp", "9", "--adaptive", "0.1", "a.obj"})).empty());
+}
+
+TEST(CliOptions, TheScenesValuesCountWhereNoneAreGiven) {
+  SceneDesc desc;
+  desc.width = 30, desc.height = 20;
+  desc.picture.samples_per_pixel = 4;
+  desc.picture.most_samples = 8;
+  desc.picture.adaptive = 0.5F;
+  desc.picture.seed = 3;
+  Options scene = parse({"a.toml"});
+  take_picture_settings(desc, scene);
+  EXPECT_EQ(scene.width, 30);
+  EXPECT_EQ(scene.samples_per_pixel, 4);
+  EXPECT_EQ(scene.most_samples, 8);
+  EXPECT_EQ(scene.adaptive, 0.5F);
+  EXPECT_EQ(scene.seed, 3U);
+  EXPECT_EQ(scene.max_depth, 8);
+  Options own = parse({"a.toml", "-r", "64x32", "-s", "16", "--adaptive", "0", "--seed=0"});
+  take_picture_settings(desc, own);
+  EXPECT_EQ(own.width, 64);
+  EXPECT_EQ(own.samples_per_pixel, 16);
+  EXPECT_EQ(own.most_samples, 0); // fewer than 16 make no sense
+  EXPECT_EQ(own.adaptive, 0);
+  EXPECT_EQ(own.seed, 0U);
+}
+
+TEST(CliOptions, TheScenesCameraIsChangedByOptions) {
+  SceneDesc desc;
+  desc.camera = Camera{};
+  desc.camera->window = Window{};
+  desc.camera->aperture_radius = 0.5F;
+  const auto camera = [&](std::initializer_list<const char*> arguments) {
+    return choose_camera(parse(arguments), Aabb{}, desc);
+  };
+  EXPECT_TRUE(camera({"a.toml"}).window);
+  EXPECT_EQ(camera({"a.toml"}).aperture_radius, 0.5F);
+  EXPECT_EQ(camera({"a.toml", "--aperture", "0"}).aperture_radius, 0);
+  EXPECT_FALSE(camera({"a.toml", "--fov", "20"}).window);
+  EXPECT_EQ(camera({"a.toml", "--ortho", "3"}).view_height, 3);
+  EXPECT_EQ(camera({"a.toml", "--ortho", "3"}).aperture_radius, 0);
+  desc.camera->aperture_radius = 0;
+  desc.camera->projection = Projection::orthographic;
+  EXPECT_EQ(camera({"a.toml"}).projection, Projection::orthographic);
+  EXPECT_EQ(camera({"a.toml", "--fov", "20"}).projection, Projection::perspective);
 }
 
 TEST(CliOptions, AovsAreNamesOrAll) {
@@ -207,7 +253,6 @@ TEST(CliOptions, UsageErrors) {
       {"a.obj", "--aperture", "-1"},
       {"a.obj", "--aperture", "1", "--ortho", "auto"},
       {"a.obj", "--focus", "nan"},
-      {"a.obj", "--adaptive", "0"},
       {"a.obj", "--adaptive", "2"},
       {"a.obj", "--max-spp", "0"},
       {"a.obj", "-s", "4", "--adaptive", "0.1", "--max-spp", "3"},
