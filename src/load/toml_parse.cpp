@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that includes toml++, which is slow to compile.
+#include "src/load/toml_key_depth.hpp"
 #include "src/load/toml_node.hpp"
 
 #include <fastrt/error.hpp>
@@ -56,27 +57,16 @@ TomlNode converted(const toml::node& node) {
   }
 }
 
-bool belongs_to_key(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-         c == '"' || c == '\'';
-}
-
-// Keys of many parts (a.b.c) nest as deep as they are long, and toml++ has no limit for that: it would end
-// with a full stack. A point counts if it follows a part of a key, until something ends the key.
+// Keys of many parts nest as deep as they are long, and toml++ has no limit for that: it would end with a
+// full stack.
 void check_depth(std::string_view text, const std::string& name) {
-  constexpr int most_points = 32;
-  int points = 0;
-  TomlPlace place;
-  bool after_part = false;
-  for (const char c : text) {
-    if (c == '.' && after_part && ++points > most_points)
-      throw InputError(name, place.line, place.column,
-                       "a key has more than " + std::to_string(most_points) + " parts");
-    if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{' || c == '#') points = 0;
-    if (c != ' ' && c != '\t') after_part = belongs_to_key(c);
-    ++place.column;
-    if (c == '\n') ++place.line, place.column = 1;
-  }
+  constexpr int most_parts = 32;
+  const std::size_t at = find_deep_key(text, most_parts);
+  if (at == std::string_view::npos) return;
+  const std::string_view before = text.substr(0, at);
+  const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const std::size_t column = at - (before.rfind('\n') + 1) + 1; // npos + 1 is 0
+  throw InputError(name, line, column, "a key has more than " + std::to_string(most_parts) + " parts");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is not TOML, not known, or not of the right kind: where it is and what is said of it.
 #include "src/load/spelling.hpp"
+#include "src/load/toml_key_depth.hpp"
 #include "src/load/toml_node.hpp"
 #include "tests/unit/toml_test_support.hpp"
 
@@ -71,13 +72,30 @@ TEST(TomlValues, DeepNestingEnds) {
   EXPECT_NE(texts.error("a = " + std::string(100000, '[')), "");
   std::string points = "a";
   for (int i = 0; i < 100000; ++i) points += ".a";
-  EXPECT_EQ(texts.error(points + " = 1"), "t.toml:1:66: a key has more than 32 parts");
-  EXPECT_EQ(texts.error("\n[" + points + "]"), "t.toml:2:67: a key has more than 32 parts");
-  EXPECT_EQ(texts.error("\n[ 'x'" + points.substr(1) + "]"), "t.toml:2:70: a key has more than 32 parts");
+  EXPECT_EQ(texts.error(points + " = 1"), "t.toml:1:64: a key has more than 32 parts");
+  EXPECT_EQ(texts.error("\n[" + points + "]"), "t.toml:2:65: a key has more than 32 parts");
+  EXPECT_EQ(texts.error("\n[ 'x'" + points.substr(1) + "]"), "t.toml:2:68: a key has more than 32 parts");
   EXPECT_EQ(texts.error("# ...." + std::string(100, '.')), "");
   std::string numbers = "background = [0.5, 0.5, 0.5]\n[[polygon]]\npoints = [";
   for (int i = 0; i < 100; ++i) numbers += "[0.5, 1.5, 2.5], ";
   EXPECT_EQ(texts.error(numbers + "]"), "t.toml:2:1: [[polygon]]: its points lie on a line");
+}
+
+TEST(TomlValues, QuotesDontHideDeepKeys) {
+  const auto is_deep = [](const std::string& text) { return find_deep_key(text, 4) != std::string::npos; };
+  EXPECT_TRUE(is_deep("a.b.c.d.e = 1"));
+  EXPECT_FALSE(is_deep("a.b.c.d = 1\ne.f.g.h = 2"));
+  EXPECT_TRUE(is_deep("'='.a.'='.a.'=' = 1"));
+  EXPECT_TRUE(is_deep("\"\\\"=\".a.\"=\".a.\"=\" = 1"));
+  EXPECT_TRUE(is_deep("a . b . \"#\" . d . e = 1"));
+  EXPECT_TRUE(is_deep("x = { y = \"\"\"\n\"\"\", a.b.c.d.e = 1 }"));
+  EXPECT_TRUE(is_deep("x = { y = \"\"\"=\\\"\"\"\"\"\", a.b.c.d.e = 1 }"));
+  EXPECT_TRUE(is_deep("x = { y = '''\\''', a.b.c.d.e = 1 }"));
+  EXPECT_FALSE(is_deep("x = 'a.b.c.d.e.f' # a.b.c.d.e.f"));
+  EXPECT_FALSE(is_deep("x = \"\"\"\na.b.c.d.e.f\n\"\"\""));
+  EXPECT_FALSE(is_deep("x = [0.1, 0.2, 0.3, 0.4, 0.5]"));
+  for (const char* text : {"'", "\"", "\"\\", "\"\"\"", "'''", "''''", "#", "\"\"\"\\"})
+    EXPECT_FALSE(is_deep(text));
 }
 
 TEST(TomlValues, LargeFilesAreRefused) {
