@@ -34,6 +34,7 @@ FASTRT_INLINE void clear_hits(const RayBatch& rays, HitBatch& hits) {
     t.store_aligned(hits.t + i);
     primitive.store_aligned(hits.primitive + i);
   }
+  hits.primitives += static_cast<std::uint64_t>(rays.count) * shapes.plane_count;
 }
 
 // Neighbouring rays: as one beam, or where they point apart in packets.
@@ -48,6 +49,10 @@ static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatc
 template <bool any>
 static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   if (scene.root == no_child) return;
+  if (scene.culls == 0) {
+    for (int i = 0; i < rays.count; i += widest) trace_packet<any>(scene, rays, hits, i);
+    return;
+  }
   if (rays.shape == BatchShape::any) {
     trace_rays_alone<any>(scene, rays, hits);
     return;

@@ -34,6 +34,11 @@ struct LoneRay {
   std::int32_t exclude, primitive;
 };
 
+FASTRT_INLINE void count_tests(HitBatch& hits, std::uint64_t nodes, std::uint64_t primitives) {
+  hits.boxes += nodes * wide_children;
+  hits.primitives += primitives;
+}
+
 // A ray's place in the tree: the inner node to be met next, what that found, and what waits.
 struct LoneSlot {
   LoneRay ray;
@@ -200,26 +205,28 @@ FASTRT_INLINE void prefetch_node(const WideNode* node) {
   for (int i = 0; i < 4; ++i) __builtin_prefetch(at + 64 * i);
 }
 
-// Meets leaves until the slot is at an inner node; false if the ray has come to its end.
-template <bool any>
-FASTRT_INLINE bool reach_node(const GeometryView& scene, LoneSlot& slot) {
-  while (is_leaf(slot.child)) {
-    meet_leaf(scene, slot.ray, slot.child);
-    if (any && slot.ray.primitive >= 0) return false;
-    if (!take_waiting(slot)) return false;
-  }
-  prefetch_node(scene.nodes + slot.child);
-  return true;
-}
-
-// Rays of a batch that are yet to start.
+// Rays of a batch that are yet to start, and what those that did met.
 struct LoneQueue {
   const RayBatch& rays;
   HitBatch& hits;
   std::uint32_t start; // the subtree that they go through
   const std::uint8_t* next;
   const std::uint8_t* end; // of their places in the batch
+  std::uint32_t nodes = 0, blocks = 0;
 };
+
+// Meets leaves until the slot is at an inner node; false if the ray has come to its end.
+template <bool any>
+FASTRT_INLINE bool reach_node(const GeometryView& scene, LoneQueue& queue, LoneSlot& slot) {
+  while (is_leaf(slot.child)) {
+    meet_leaf(scene, slot.ray, slot.child);
+    queue.blocks += leaf_blocks(slot.child);
+    if (any && slot.ray.primitive >= 0) return false;
+    if (!take_waiting(slot)) return false;
+  }
+  prefetch_node(scene.nodes + slot.child);
+  return true;
+}
 
 // Puts the next ray that reaches an inner node into the slot; false if there is none.
 template <bool any>
@@ -230,7 +237,7 @@ static bool start_ray(const GeometryView& scene, LoneQueue& queue, LoneSlot& slo
     slot.index = i;
     slot.child = queue.start;
     slot.top = slot.stack;
-    if (reach_node<any>(scene, slot)) return true;
+    if (reach_node<any>(scene, queue, slot)) return true;
     queue.hits.t[i] = slot.ray.t;
     queue.hits.primitive[i] = slot.ray.primitive;
   }
@@ -239,12 +246,12 @@ static bool start_ray(const GeometryView& scene, LoneQueue& queue, LoneSlot& slo
 
 // One step of a slot whose node has been met; false if its ray has come to its end.
 template <bool any>
-static bool go_on(const GeometryView& scene, LoneSlot& slot) noexcept {
+static bool go_on(const GeometryView& scene, LoneQueue& queue, LoneSlot& slot) noexcept {
   if (slot.met != 0)
     descend(scene.nodes[slot.child], slot);
   else if (!take_waiting(slot))
     return false;
-  return reach_node<any>(scene, slot);
+  return reach_node<any>(scene, queue, slot);
 }
 
 // The rays of the queue, each continuing from what `hits` holds. any: ends at the first hit, whichever it is.
@@ -259,9 +266,10 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
   }
   while (count != 0) {
     for (int s = 0; s < count; ++s) meet_node(scene, *slots[s]);
+    queue.nodes += static_cast<std::uint32_t>(count);
     for (int s = 0; s < count;) {
       LoneSlot& slot = *slots[s];
-      if (!go_on<any>(scene, slot)) {
+      if (!go_on<any>(scene, queue, slot)) {
         queue.hits.t[slot.index] = slot.ray.t;
         queue.hits.primitive[slot.index] = slot.ray.primitive;
         if (!start_ray<any>(scene, queue, slot)) {
@@ -274,6 +282,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
       ++s;
     }
   }
+  count_tests(queue.hits, queue.nodes, std::uint64_t{queue.blocks} * block_size);
 }
 
 // All rays of a batch, each on its own.

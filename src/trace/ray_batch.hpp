@@ -33,6 +33,9 @@ struct alignas(64) RayBatch {
 struct alignas(64) HitBatch {
   float t[batch_size];
   std::int32_t primitive[batch_size];
+  // What it took, added to by every question: boxes that a ray, or rays that went together, were held
+  // against, and pairs of a ray and a primitive.
+  std::uint64_t boxes, primitives;
 };
 
 } // namespace fastrt

@@ -126,8 +126,13 @@ struct TileJob {
   AovTargets aovs;
 };
 
+struct TileTestCounts {
+  std::uint64_t boxes, primitives; // as HitBatch counts
+};
+
 struct TileRayCounts {
   std::uint64_t primary, shadow, reflected, refracted;
+  TileTestCounts primary_tests, shadow_tests, secondary_tests;
 };
 
 } // namespace fastrt
