@@ -67,7 +67,9 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
 template <bool any>
 static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   clear_hits(rays, hits);
+  hits.lone = 0;
   trace_tree<any>(scene, rays, hits);
+  count_tests(hits, hits.lone >> 32U, (hits.lone & 0xFFFFFFFFU) * leaf_lanes);
   if (scene.shapes.plane_count != 0) meet_planes(scene.shapes, rays, hits);
 }
 

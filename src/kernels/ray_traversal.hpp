@@ -32,12 +32,10 @@ struct LoneRay {
   float t_min;
   float t, bound; // the closest hit so far, and how far boxes still matter
   std::int32_t exclude, primitive;
+  // Runs of blocks and nodes that it, and others before it in its slot, were held against; side by side.
+  alignas(8) std::uint32_t runs;
+  std::uint32_t nodes;
 };
-
-FASTRT_INLINE void count_tests(HitBatch& hits, std::uint64_t nodes, std::uint64_t primitives) {
-  hits.boxes += nodes * wide_children;
-  hits.primitives += primitives;
-}
 
 // A ray's place in the tree: the inner node to be met next, what that found, and what waits.
 struct LoneSlot {
@@ -133,7 +131,10 @@ FASTRT_INLINE void meet_run(LoneRay& ray, const BlockRun<SphereBlock>& run) {
 }
 
 FASTRT_INLINE void meet_leaf(const GeometryView& scene, LoneRay& ray, std::uint32_t leaf) {
-  const auto meet = [&](const auto& run) { meet_run(ray, run); };
+  const auto meet = [&](const auto& run) {
+    ++ray.runs;
+    meet_run(ray, run);
+  };
   if (leaf_group(leaf) == triangle_group)
     for_each_run(scene.triangles, leaf, meet);
   else if (leaf_group(leaf) == sphere_group)
@@ -205,27 +206,38 @@ FASTRT_INLINE void prefetch_node(const WideNode* node) {
   for (int i = 0; i < 4; ++i) __builtin_prefetch(at + 64 * i);
 }
 
-// Rays of a batch that are yet to start, and what those that did met.
+// Meets leaves until the slot is at an inner node; false if the ray has come to its end.
+template <bool any>
+FASTRT_INLINE bool reach_node(const GeometryView& scene, LoneSlot& slot) {
+  while (is_leaf(slot.child)) {
+    meet_leaf(scene, slot.ray, slot.child);
+    if (any && slot.ray.primitive >= 0) return false;
+    if (!take_waiting(slot)) return false;
+  }
+  prefetch_node(scene.nodes + slot.child);
+  ++slot.ray.nodes;
+  return true;
+}
+
+// Rays of a batch that are yet to start.
 struct LoneQueue {
   const RayBatch& rays;
   HitBatch& hits;
   std::uint32_t start; // the subtree that they go through
   const std::uint8_t* next;
   const std::uint8_t* end; // of their places in the batch
-  std::uint32_t nodes = 0, blocks = 0;
 };
 
-// Meets leaves until the slot is at an inner node; false if the ray has come to its end.
-template <bool any>
-FASTRT_INLINE bool reach_node(const GeometryView& scene, LoneQueue& queue, LoneSlot& slot) {
-  while (is_leaf(slot.child)) {
-    meet_leaf(scene, slot.ray, slot.child);
-    queue.blocks += leaf_blocks(slot.child);
-    if (any && slot.ray.primitive >= 0) return false;
-    if (!take_waiting(slot)) return false;
-  }
-  prefetch_node(scene.nodes + slot.child);
-  return true;
+// A slot that takes no more rays: all that it counted, in one addition.
+FASTRT_INLINE void retire(HitBatch& hits, const LoneSlot& slot) {
+  std::uint64_t counts;
+  __builtin_memcpy(&counts, &slot.ray.runs, sizeof counts);
+  hits.lone += counts;
+}
+
+FASTRT_INLINE void count_tests(HitBatch& hits, std::uint64_t nodes, std::uint64_t primitives) {
+  hits.boxes += nodes * wide_children;
+  hits.primitives += primitives;
 }
 
 // Puts the next ray that reaches an inner node into the slot; false if there is none.
@@ -237,7 +249,7 @@ static bool start_ray(const GeometryView& scene, LoneQueue& queue, LoneSlot& slo
     slot.index = i;
     slot.child = queue.start;
     slot.top = slot.stack;
-    if (reach_node<any>(scene, queue, slot)) return true;
+    if (reach_node<any>(scene, slot)) return true;
     queue.hits.t[i] = slot.ray.t;
     queue.hits.primitive[i] = slot.ray.primitive;
   }
@@ -246,12 +258,12 @@ static bool start_ray(const GeometryView& scene, LoneQueue& queue, LoneSlot& slo
 
 // One step of a slot whose node has been met; false if its ray has come to its end.
 template <bool any>
-static bool go_on(const GeometryView& scene, LoneQueue& queue, LoneSlot& slot) noexcept {
+static bool go_on(const GeometryView& scene, LoneSlot& slot) noexcept {
   if (slot.met != 0)
     descend(scene.nodes[slot.child], slot);
   else if (!take_waiting(slot))
     return false;
-  return reach_node<any>(scene, queue, slot);
+  return reach_node<any>(scene, slot);
 }
 
 // The rays of the queue, each continuing from what `hits` holds. any: ends at the first hit, whichever it is.
@@ -261,18 +273,22 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
   LoneSlot* slots[lone_rays_at_once];
   int count = 0;
   for (LoneSlot& slot : memory) {
-    if (!start_ray<any>(scene, queue, slot)) break;
+    slot.ray.runs = slot.ray.nodes = 0;
+    if (!start_ray<any>(scene, queue, slot)) {
+      retire(queue.hits, slot);
+      break;
+    }
     slots[count++] = &slot;
   }
   while (count != 0) {
     for (int s = 0; s < count; ++s) meet_node(scene, *slots[s]);
-    queue.nodes += static_cast<std::uint32_t>(count);
     for (int s = 0; s < count;) {
       LoneSlot& slot = *slots[s];
-      if (!go_on<any>(scene, queue, slot)) {
+      if (!go_on<any>(scene, slot)) {
         queue.hits.t[slot.index] = slot.ray.t;
         queue.hits.primitive[slot.index] = slot.ray.primitive;
         if (!start_ray<any>(scene, queue, slot)) {
+          retire(queue.hits, slot);
           slots[s] = slots[--count];
           slots[count] = &slot;
           if (s == count) break;
@@ -282,7 +298,6 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
       ++s;
     }
   }
-  count_tests(queue.hits, queue.nodes, std::uint64_t{queue.blocks} * block_size);
 }
 
 // All rays of a batch, each on its own.
