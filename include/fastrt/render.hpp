@@ -66,6 +66,16 @@ struct RayCounts {
   }
 };
 
+// What it took to find the hits of some rays. A node's eight boxes count eight for a ray on its own and for
+// up to 256 rays that meet them together; primitives count once for each ray that was held against one (where
+// that happens to four or eight at once, for all of these).
+struct TestCounts {
+  std::uint64_t boxes = 0, primitives = 0;
+};
+struct RayTests {
+  TestCounts primary, shadow, secondary; // secondary: reflected and refracted
+};
+
 // A finished picture, or the part of it that was asked for: linear RGB, three floats a pixel, rows from the
 // top; and the primitive that the first sample of each pixel sees (no_primitive where it sees the
 // background).
@@ -76,6 +86,7 @@ struct Frame {
   std::vector<std::int32_t> samples; // that each pixel got; empty unless sampling was adaptive
   std::vector<AovPlane> aovs;        // those that were asked for, each once
   RayCounts rays;
+  RayTests tests;       // of kernels; Isa::scalar and the reference count none
   bool complete = true; // false when the rendering was cancelled: tiles not done are black
   // Null if it was not asked for.
   const AovPlane* find(Aov aov) const noexcept;

@@ -59,6 +59,8 @@ struct BvhStats {
 struct TracerSettings {
   Isa isa;         // which kernels
   int threads = 0; // for the build; 0 takes every core
+  // false: no bounding volume keeps a ray from a primitive, to show what they buy. The answers are the same.
+  bool culling = true;
   TracerSettings() : isa(select_isa("auto")) {}
 };
 

@@ -298,6 +298,8 @@ void add_engine_options(OptionAdder& add, Options& options) {
             });
   add.value("--isa", "NAME", "auto, avx512, avx2, sse4.2 or scalar [FASTRT_ISA, or auto: the widest]",
             [&](const std::string&, const std::string& text) { options.isa = text; });
+  add.flag("--no-culling", options.culling, false,
+           "Hold every ray against every primitive, to see what bounding volumes buy");
   add.flag("--verify", options.verify, true,
            "Render by plain scalar code too and compare; exit 1 if different");
 }

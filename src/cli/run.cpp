@@ -157,6 +157,7 @@ void describe(const Options& options, const Tracer& tracer, const Frame& frame, 
   stats.instances = tracer.scene().instance_count();
   stats.lights = tracer.scene().lights().size();
   stats.rays = frame.rays;
+  stats.tests = frame.tests;
   stats.bvh = tracer.bvh_stats();
   stats.scene_bytes = tracer.scene().bytes();
 }
@@ -197,6 +198,7 @@ int run(const Options& given, Clock::time_point start) {
   RunStats stats;
   TracerSettings tracer_settings;
   tracer_settings.isa = choose_isa(options);
+  tracer_settings.culling = options.culling;
   tracer_settings.threads = stats.threads = choose_threads(options);
   check_image_size(options);
   const fs::path output = choose_output(options);

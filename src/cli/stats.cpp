@@ -5,6 +5,7 @@
 
 #include <sys/resource.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -100,6 +101,53 @@ std::string rays_json(const RayCounts& rays) {
   return object.text();
 }
 
+// A kind of rays and what it took to trace them.
+struct TestedRays {
+  const char* name;
+  std::uint64_t rays;
+  TestCounts tests;
+  double boxes_per_ray() const { return per_ray(tests.boxes); }
+  double primitives_per_ray() const { return per_ray(tests.primitives); }
+
+private:
+  double per_ray(std::uint64_t count) const {
+    return rays == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(rays);
+  }
+};
+
+std::array<TestedRays, 3> tested_rays(const RunStats& stats) {
+  const RayCounts& rays = stats.rays;
+  return {{{"primary", rays.primary, stats.tests.primary},
+           {"shadow", rays.shadow, stats.tests.shadow},
+           {"secondary", rays.reflected + rays.refracted, stats.tests.secondary}}};
+}
+
+std::string tests_json(const RunStats& stats) {
+  JsonObject object;
+  for (const TestedRays& kind : tested_rays(stats)) {
+    JsonObject counts;
+    counts.add("boxes", kind.tests.boxes);
+    counts.add("primitives", kind.tests.primitives);
+    counts.add("boxes_per_ray", kind.boxes_per_ray());
+    counts.add("primitives_per_ray", kind.primitives_per_ray());
+    object.raw(kind.name, counts.text());
+  }
+  return object.text();
+}
+
+// "tests    per primary ray 0.9 boxes and 2.3 primitives, per shadow ray ..."; nothing where none are
+// counted.
+std::string tests_text(const RunStats& stats) {
+  std::string text;
+  for (const TestedRays& kind : tested_rays(stats)) {
+    if (kind.tests.boxes + kind.tests.primitives == 0) continue;
+    text += std::string(text.empty() ? "tests    per " : ", per ") + kind.name + " ray " +
+            short_number(kind.boxes_per_ray()) + " boxes and " + short_number(kind.primitives_per_ray()) +
+            " primitives";
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string seconds_json(const RunStats& stats) {
   JsonObject object;
   object.add("read", stats.read_seconds);
@@ -174,6 +222,7 @@ std::string stats_text(const RunStats& stats) {
           ", shadow " + std::to_string(rays.shadow) + ", reflected " + std::to_string(rays.reflected) +
           ", refracted " + std::to_string(rays.refracted) + "; " + short_number(stats.mrays_per_second()) +
           " Mrays/s\n";
+  text += tests_text(stats);
   text += "tree     SAH cost " + short_number(bvh.sah_cost) + ", " + count(bvh.node_count, "node") + ", " +
           std::to_string(bvh.leaf_count) + " leaves, " + count(bvh.block_count, "block") + ", depth " +
           std::to_string(bvh.depth) + ", " + short_number(mega(static_cast<double>(bvh.bytes))) + " MB (" +
@@ -202,6 +251,7 @@ std::string stats_json(const RunStats& stats) {
   object.add("lights", std::uint64_t{stats.lights});
   object.raw("seconds", seconds_json(stats));
   object.raw("rays", rays_json(stats.rays));
+  object.raw("tests", tests_json(stats));
   object.add("mrays_per_second", stats.mrays_per_second());
   object.raw("bvh", bvh_json(stats.bvh));
   object.add("scene_bytes", std::uint64_t{stats.scene_bytes});

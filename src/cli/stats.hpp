@@ -23,6 +23,7 @@ struct RunStats {
   std::size_t instances = 0;
   double read_seconds = 0, build_seconds = 0, render_seconds = 0, write_seconds = 0, total_seconds = 0;
   RayCounts rays;
+  RayTests tests; // of kernels
   BvhStats bvh;
   std::size_t scene_bytes = 0, peak_rss_bytes = 0;
   std::optional<FrameDifference> verify;

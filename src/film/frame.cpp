@@ -80,6 +80,11 @@ bool differs(const AovPlane& a, const AovPlane& b, std::size_t pixel) {
   return false;
 }
 
+void add(const TestCounts& tests, TestCounts& to) {
+  to.boxes += tests.boxes;
+  to.primitives += tests.primitives;
+}
+
 } // namespace
 
 const AovPlane* Frame::find(Aov aov) const noexcept {
@@ -106,9 +111,12 @@ bool FrameProgress::stopped() {
   return stopped_;
 }
 
-void FrameProgress::part_done(const RayCounts& rays) {
+void FrameProgress::part_done(const RayCounts& rays, const RayTests& tests) {
   const std::lock_guard lock(mutex_);
   rays_ += rays;
+  add(tests.primary, tests_.primary);
+  add(tests.shadow, tests_.shadow);
+  add(tests.secondary, tests_.secondary);
   ++parts_done_;
   if (settings_->progress) settings_->progress(static_cast<double>(parts_done_) / parts_);
 }
@@ -127,6 +135,7 @@ void FrameProgress::failed(std::exception_ptr error) {
 void FrameProgress::finish(Frame& frame) {
   if (error_) std::rethrow_exception(error_);
   frame.rays = rays_;
+  frame.tests = tests_;
   frame.complete = parts_done_ == parts_;
 }
 

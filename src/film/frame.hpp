@@ -29,7 +29,7 @@ public:
 
   // Whether to leave the remaining parts out: cancelled, or a part failed.
   bool stopped();
-  void part_done(const RayCounts& rays);
+  void part_done(const RayCounts& rays, const RayTests& tests = {});
   // Keeps the first exception; finish() throws it.
   void failed(std::exception_ptr error);
   // The parts that are left turned out to be needless.
@@ -42,6 +42,7 @@ private:
   int parts_;
   std::mutex mutex_;
   RayCounts rays_;
+  RayTests tests_;
   int parts_done_ = 0;
   std::atomic<bool> stopped_{false};
   std::exception_ptr error_;

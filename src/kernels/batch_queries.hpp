@@ -26,6 +26,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
     t.store_aligned(hits.t + i);
     primitive.store_aligned(hits.primitive + i);
   }
+  hits.primitives += static_cast<std::uint64_t>(rays.count) * shapes.plane_count;
 }
 
 // Neighbouring rays: as one beam, or where they point apart in packets.
@@ -40,6 +41,10 @@ static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatc
 template <bool any>
 static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   if (scene.root == no_child) return;
+  if (scene.culls == 0) {
+    for (int i = 0; i < rays.count; i += widest) trace_packet<any>(scene, rays, hits, i);
+    return;
+  }
   if (rays.shape == BatchShape::any) {
     trace_rays_alone<any>(scene, rays, hits);
     return;
@@ -54,7 +59,9 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
 template <bool any>
 static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   clear_hits(rays, hits);
+  hits.lone = 0;
   trace_tree<any>(scene, rays, hits);
+  count_tests(hits, hits.lone >> 32U, (hits.lone & 0xFFFFFFFFU) * leaf_lanes);
   if (scene.shapes.plane_count != 0) meet_planes(scene.shapes, rays, hits);
 }
 

@@ -15,6 +15,7 @@ struct BeamTraversal {
   int first; // ray 0 of the beam in the batch
   Beam& beam;
   std::uint64_t open; // rays that still look for a hit
+  std::uint32_t nodes = 0, tests = 0;
 };
 
 // After new hits of the rays in `bits` of group g.
@@ -29,6 +30,7 @@ FASTRT_INLINE void shorten_group(BeamTraversal<any>& t, int g, std::uint32_t bit
 template <bool any, class Meet>
 FASTRT_INLINE std::uint32_t meet_beam_group(BeamTraversal<any>& t, int g, std::uint32_t bits,
                                             std::int32_t primitive, const Meet& meet) {
+  t.tests += static_cast<std::uint32_t>(__builtin_popcount(bits));
   std::uint32_t changed = 0;
   for (int k = 0; k < group_size; k += widest) {
     if ((bits >> k & register_bits) == 0) continue;
@@ -92,6 +94,7 @@ inline constexpr int lone_test_share = 16;
 template <bool any>
 FASTRT_INLINE std::uint32_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int g,
                                            std::uint32_t rays) {
+  t.tests += static_cast<std::uint32_t>(__builtin_popcount(rays) * run.lanes);
   std::uint32_t changed = 0;
   for (; rays != 0; rays &= rays - 1) {
     const int lane = __builtin_ctz(rays), i = t.first + g * group_size + lane;

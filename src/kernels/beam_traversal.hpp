@@ -76,6 +76,7 @@ static void traverse_beam(BeamTraversal<any>& t) noexcept {
       continue;
     }
     const WideNode& node = t.scene.nodes[entry.child];
+    ++t.nodes;
     touch_children(t.beam, node, rays, children);
     top = push_children(t.scene, node, children, top);
   }
@@ -92,6 +93,7 @@ static bool trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch
   for (int g = 0; g < count / group_size; ++g)
     beam.groups[g].far = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
   traverse_beam(t);
+  count_tests(hits, t.nodes, t.tests);
   return true;
 }
 

@@ -107,7 +107,11 @@ FASTRT_INLINE void trace_instance(const GeometryView& scene, std::int32_t id, In
   inside.root = row.root;
   inside.largest_coordinate = row.largest_coordinate;
   clear_hits(to.rays, to.hits);
+  to.hits.boxes = to.hits.primitives = to.hits.lone = 0;
   trace_tree<any>(inside, to.rays, to.hits);
+  hits.boxes += to.hits.boxes;
+  hits.primitives += to.hits.primitives;
+  hits.lone += to.hits.lone;
   for (int k = 0; k < to.rays.count; ++k) {
     if (to.hits.primitive[k] < 0) continue;
     // Rounding may have moved the hit out of the box.

@@ -198,12 +198,13 @@ template <bool any>
 static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
                          int first) noexcept {
   Packet p = load_packet(scene, rays, hits, first);
-  const std::uint32_t live = to_bits(traceable_lanes(p.origin, p.dir, rays.count - first));
+  const std::uint32_t live = to_bits(traceable_lanes(p.origin, p.dir, rays.count - first) & (p.t_min < p.t));
   if (live == 0) return;
   PacketEntry stack[max_tree_stack];
   stack[0].child = scene.root;
   stack[0].bits = live;
   p.t_min.store_aligned(stack[0].near);
+  std::uint32_t nodes = 0, tests = 0;
   PacketEntry* top = stack + 1;
   while (top != stack) {
     --top;
@@ -214,6 +215,7 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
     if (active_bits == 0) continue;
     if (is_leaf(child)) {
       meet_leaf<any>(scene, {rays, hits, first}, p, active, child);
+      tests += static_cast<std::uint32_t>(__builtin_popcount(active_bits)) * leaf_blocks(child);
       continue;
     }
     if (__builtin_popcount(active_bits) <= lone_ray_limit) {
@@ -221,6 +223,7 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
       continue;
     }
     const WideNode& node = scene.nodes[child];
+    ++nodes;
     PacketEntry* const bottom = top;
     for (int i = 0; i < wide_children && node.child[i] != no_child; ++i) {
       const SlabLanes<PacketF> slab = meet_child(p, node, i);
@@ -230,6 +233,7 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
   }
   p.t.store_unaligned(hits.t + first);
   p.primitive.store_unaligned(hits.primitive + first);
+  count_tests(hits, nodes, std::uint64_t{tests} * block_size);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

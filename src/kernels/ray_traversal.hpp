@@ -32,6 +32,9 @@ struct LoneRay {
   float t_min;
   float t, bound; // the closest hit so far, and how far boxes still matter
   std::int32_t exclude, primitive;
+  // Runs of blocks and nodes that it, and others before it in its slot, were held against; side by side.
+  alignas(8) std::uint32_t runs;
+  std::uint32_t nodes;
 };
 
 // A ray's place in the tree: the inner node to be met next, what that found, and what waits.
@@ -139,7 +142,10 @@ struct LoneQueue {
 template <bool any>
 FASTRT_INLINE void meet_leaf(const GeometryView& scene, const LoneQueue& queue, int i, LoneRay& ray,
                              std::uint32_t leaf) {
-  const auto meet = [&](const auto& run) { meet_run(ray, run); };
+  const auto meet = [&](const auto& run) {
+    ++ray.runs;
+    meet_run(ray, run);
+  };
   if (leaf_group(leaf) == triangle_group)
     for_each_run(scene.triangles, leaf, meet);
   else if (leaf_group(leaf) == sphere_group)
@@ -220,7 +226,20 @@ FASTRT_INLINE bool reach_node(const GeometryView& scene, const LoneQueue& queue,
     if (!take_waiting(slot)) return false;
   }
   prefetch_node(scene.nodes + slot.child);
+  ++slot.ray.nodes;
   return true;
+}
+
+// A slot that takes no more rays: all that it counted, in one addition.
+FASTRT_INLINE void retire(HitBatch& hits, const LoneSlot& slot) {
+  std::uint64_t counts;
+  __builtin_memcpy(&counts, &slot.ray.runs, sizeof counts);
+  hits.lone += counts;
+}
+
+FASTRT_INLINE void count_tests(HitBatch& hits, std::uint64_t nodes, std::uint64_t primitives) {
+  hits.boxes += nodes * wide_children;
+  hits.primitives += primitives;
 }
 
 // Puts the next ray that reaches an inner node into the slot; false if there is none.
@@ -256,7 +275,11 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
   LoneSlot* slots[lone_rays_at_once];
   int count = 0;
   for (LoneSlot& slot : memory) {
-    if (!start_ray<any>(scene, queue, slot)) break;
+    slot.ray.runs = slot.ray.nodes = 0;
+    if (!start_ray<any>(scene, queue, slot)) {
+      retire(queue.hits, slot);
+      break;
+    }
     slots[count++] = &slot;
   }
   while (count != 0) {
@@ -267,6 +290,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
         queue.hits.t[slot.index] = slot.ray.t;
         queue.hits.primitive[slot.index] = slot.ray.primitive;
         if (!start_ray<any>(scene, queue, slot)) {
+          retire(queue.hits, slot);
           slots[s] = slots[--count];
           slots[count] = &slot;
           if (s == count) break;

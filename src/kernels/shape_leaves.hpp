@@ -57,6 +57,7 @@ template <bool any, class Ray>
   const V3<LeafF> origin = {LeafF(ray.origin.x), LeafF(ray.origin.y), LeafF(ray.origin.z)};
   const V3<LeafF> dir = {LeafF(ray.dir.x), LeafF(ray.dir.y), LeafF(ray.dir.z)};
   for_each_run(scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
+    ++ray.runs;
     for (std::uint32_t bits = boxes_met(ray, run); bits != 0; bits &= bits - 1) {
       const std::int32_t id = run.primitive(__builtin_ctz(bits));
       if (is_instance(scene, id)) meet_instance_alone<any>(scene, rays, hits, id, i, ray);

@@ -29,6 +29,7 @@ struct TileTraversal {
   std::uint32_t open[batch_groups]; // the rays that still look for a hit: bit l of word g is ray 16 g + l
   TilePoints points;
   TileView view;
+  std::uint32_t nodes = 0, tests = 0;
 };
 
 // A triangle that covers more groups than this by its rectangle is first held against their corners by its
@@ -51,6 +52,7 @@ FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g, std::uint32_t 
 template <bool any, class Meet>
 FASTRT_INLINE void meet_group(TileTraversal<any>& tile, int g, std::uint32_t bits, std::int32_t primitive,
                               const Meet& meet) {
+  tile.tests += static_cast<std::uint32_t>(__builtin_popcount(bits));
   std::uint32_t changed = 0;
   for (int k = 0; k < group_size; k += widest) {
     if (widest < group_size && (bits >> k & ((1U << (widest - 1)) * 2U - 1U)) == 0) continue;
@@ -352,6 +354,7 @@ FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
       continue;
     }
     const WideNode& node = tile.scene.nodes[entry.child];
+    ++tile.nodes;
     touch_children(tile.view, node, groups, children);
     top = push_children(tile.scene, node, children, top);
   }
@@ -372,6 +375,7 @@ static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch
         live.bits[g] == 0 ? -__builtin_inff() : group_far(hits, tile.view.groups, live.bits[g], g);
   aim_view(tile.view);
   traverse(tile);
+  count_tests(hits, tile.nodes, tile.tests);
   return true;
 }
 

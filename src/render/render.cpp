@@ -116,6 +116,8 @@ RayCounts to_counts(const TileRayCounts& rays) {
   return {rays.primary, rays.shadow, rays.reflected, rays.refracted};
 }
 
+TestCounts to_counts(const TileTestCounts& tests) { return {tests.boxes, tests.primitives}; }
+
 // One thread's share of the tiles, until none is left.
 void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, int tile_columns, int tile_count,
                   std::atomic<int>& next_tile, FrameProgress& progress) {
@@ -128,7 +130,8 @@ void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, int tile
     job.y = job.y_begin + tile / tile_columns * tile_side;
     TileRayCounts rays{};
     parts.kernels->render_tile(job, memory.scratch(), rays);
-    progress.part_done(to_counts(rays));
+    progress.part_done(to_counts(rays), {to_counts(rays.primary_tests), to_counts(rays.shadow_tests),
+                                         to_counts(rays.secondary_tests)});
   }
 }
 
@@ -181,6 +184,8 @@ void show_caustics(Caustics& caustics, FrameProgress& progress, TileJob& job) {
 
 Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {
   const Tracer::Parts& parts = tracer.parts();
+  if (parts.scalar_bvh && parts.view.geometry.culls == 0)
+    return render_reference(parts.scene, camera, settings);
   if (parts.scalar_bvh) return reference::render(parts.scene, *parts.scalar_bvh, camera, settings);
   if (settings.integrator == Integrator::forward) return render_forward(tracer, camera, settings);
   check(settings);

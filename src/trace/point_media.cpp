@@ -97,7 +97,7 @@ void media_around(const Tracer::Parts& parts, const Vec3& point, std::int32_t (&
 void place_lights_in_media(Tracer::Parts& parts) {
   for (LightRow& row : parts.lights) {
     std::fill(std::begin(row.media), std::end(row.media), -1);
-    if (row.directional == 0 && parts.view.shading.has_absorption != 0)
+    if (row.directional == 0)
       media_around(parts, {row.position[0], row.position[1], row.position[2]}, row.media);
   }
 }

@@ -38,6 +38,10 @@ struct alignas(64) HitBatch {
   float t[batch_size];
   std::int32_t primitive[batch_size];
   std::int32_t inner[batch_size];
+  // What it took, added to by every question: boxes that a ray, or rays that went together, were held
+  // against, and pairs of a ray and a primitive.
+  std::uint64_t boxes, primitives;
+  std::uint64_t lone; // within a question: nodes that lone rays met, times 2^32, and runs of blocks
 };
 
 } // namespace fastrt

@@ -132,8 +132,13 @@ struct TileJob {
   const PhotonMapView* caustics; // null: none
 };
 
+struct TileTestCounts {
+  std::uint64_t boxes, primitives; // as HitBatch counts
+};
+
 struct TileRayCounts {
   std::uint64_t primary, shadow, reflected, refracted;
+  TileTestCounts primary_tests, shadow_tests, secondary_tests;
 };
 
 } // namespace fastrt

@@ -22,7 +22,7 @@ const KernelTable* table_of(Isa isa) noexcept {
   return nullptr;
 }
 
-void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree) {
+void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree, bool culling) {
   GeometryView& view = parts.view.geometry;
   view.nodes = parts.nodes.data();
   view.triangles = parts.triangle_blocks.data();
@@ -31,6 +31,22 @@ void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree) {
   view.shapes = shape_view(parts.scene, parts.shapes);
   view.root = tree.root;
   view.largest_coordinate = largest_magnitude(tree.bounds);
+  view.culls = culling;
+}
+
+// Boxes so large that no ray misses one.
+void remove_bounds(Tracer::Parts& parts) {
+  constexpr float far = 1e30F;
+  for (WideNode& node : parts.nodes)
+    for (int i = 0; i < wide_children && node.child[i] != no_child; ++i) {
+      node.lower_x[i] = node.lower_y[i] = node.lower_z[i] = -far;
+      node.upper_x[i] = node.upper_y[i] = node.upper_z[i] = far;
+    }
+  for (ShapeBlock& block : parts.shape_blocks)
+    for (int i = 0; i < block_size && block.primitive[i] >= 0; ++i) {
+      block.low_x[i] = block.low_y[i] = block.low_z[i] = -far;
+      block.high_x[i] = block.high_y[i] = block.high_z[i] = far;
+    }
 }
 
 void fill_columns(const Scene& scene, ShadingView& view) {
@@ -131,7 +147,8 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   parts.textures = texture_rows(parts.scene);
   parts.materials = material_rows(parts.scene, parts.textures);
   parts.lights = light_rows(parts.scene, parts.emitters);
-  fill_geometry_view(parts, trees.all);
+  if (!settings.culling) remove_bounds(parts);
+  fill_geometry_view(parts, trees.all, settings.culling);
   fill_shading_view(parts);
   place_lights_in_media(parts);
   if (parts.kernels == nullptr) parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings.threads);

@@ -108,6 +108,13 @@ FASTRT_INLINE void push(TileScratch& scratch, PathBatch& batch) {
     scratch.waiting[scratch.waiting_count++] = &batch;
 }
 
+// Moves what questions took to where a tile counts it.
+FASTRT_INLINE void take_tests(HitBatch& hits, TileTestCounts& counts) {
+  counts.boxes += hits.boxes;
+  counts.primitives += hits.primitives;
+  hits.boxes = hits.primitives = 0;
+}
+
 // One batch: its light, and its children onto the stack.
 static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratch,
                         TileRayCounts& counts) noexcept {
@@ -116,6 +123,8 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   see_surfaces(job, rays, scratch);
   counts.shadow += gather_light(job, rays, scratch);
   if (job.caustics != nullptr) gather_caustics(job, rays, scratch);
+  take_tests(scratch.hits, rays.depth == 0 ? counts.primary_tests : counts.secondary_tests);
+  take_tests(scratch.shadow_hits, counts.shadow_tests);
   if (scratch.recording) record_batch(job, rays, scratch);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);

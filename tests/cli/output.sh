@@ -67,6 +67,7 @@ stats_json() {
 import json, sys
 stats = json.load(open(sys.argv[1]))
 assert stats["width"] == 48 and stats["rays"]["primary"] == 48 * 32 and stats["triangles"] == 2
+assert stats["tests"]["primary"]["primitives"] > 0
 assert stats["verify"]["pixels"] == 0 and stats["peak_rss_bytes"] > 0 and stats["seconds"]["total"] > 0
 PYTHON
   fi

@@ -49,6 +49,22 @@ TEST(CliReport, SummaryOfAdaptiveSampling) {
   EXPECT_NE(stats_json(stats).find("\"mean_spp\": 9.25"), std::string::npos);
 }
 
+TEST(CliReport, TestsPerRay) {
+  RunStats stats = some_stats();
+  EXPECT_EQ(stats_text(stats).find("tests"), std::string::npos);
+  stats.tests.primary = {786432 * 2, 786432 * 12};
+  stats.tests.secondary = {6784, 0};
+  EXPECT_NE(
+      stats_text(stats).find("\ntests    per primary ray 2.0 boxes and 12 primitives, per secondary ray "
+                             "0.50 boxes and 0 primitives\n"),
+      std::string::npos);
+  const std::string json = stats_json(stats);
+  EXPECT_NE(json.find("\"tests\": {\"primary\": {\"boxes\": 1572864, \"primitives\": 9437184, "
+                      "\"boxes_per_ray\": 2, \"primitives_per_ray\": 12}, \"shadow\": {\"boxes\": 0"),
+            std::string::npos)
+      << json;
+}
+
 TEST(CliReport, JsonHoldsTheNumbers) {
   const std::string json = stats_json(some_stats());
   EXPECT_EQ(json.front(), '{');
