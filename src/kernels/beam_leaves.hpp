@@ -215,7 +215,7 @@ template <bool any>
       const int lane = __builtin_ctz(lanes);
       const std::int32_t id = run.primitive(lane);
       if (id < 0 || lane >= run.lanes) continue;
-      if (is_instance(t.scene, id)) {
+      if (is_no_shape(t.scene, id)) {
         visitors[lane] |= static_cast<std::uint64_t>(group) << (g * group_size);
         instances |= 1U << lane;
         continue;

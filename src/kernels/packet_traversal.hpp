@@ -116,7 +116,7 @@ template <bool any>
       const SlabLanes<PacketF> slab = meet_box(p, block->low_x[i], block->high_x[i], block->low_y[i],
                                                block->high_y[i], block->low_z[i], block->high_z[i]);
       if ((to_bits(slab.near <= slab.far) & active) == 0) continue;
-      if (is_instance(scene, block->primitive[i])) {
+      if (is_no_shape(scene, block->primitive[i])) {
         meet_instance<any>(scene, batch, p, active, block->primitive[i]);
         continue;
       }

@@ -36,9 +36,9 @@ FASTRT_INLINE std::uint32_t boxes_met(const Ray& ray, const BlockRun<ShapeBlock>
   return to_bits(slab.near <= slab.far) & ((1U << run.lanes) - 1U);
 }
 
-// Whether a leaf's shape is an instance: planes are in no leaf.
-FASTRT_INLINE bool is_instance(const GeometryView& scene, std::int32_t id) {
-  return id >= scene.shapes.first_plane;
+// An instance (planes are in no leaf), or a row that is not used.
+FASTRT_INLINE bool is_no_shape(const GeometryView& scene, std::int32_t id) {
+  return static_cast<std::uint32_t>(id) >= static_cast<std::uint32_t>(scene.shapes.first_plane);
 }
 
 // Ray i of a batch, which is `ray`, against an instance.
@@ -63,8 +63,11 @@ template <bool any, class Ray>
     for (std::uint32_t bits = boxes_met(ray, run, at); bits != 0; bits &= bits - 1) {
       const int lane = __builtin_ctz(bits);
       const std::int32_t id = run.primitive(lane);
-      if (is_instance(scene, id)) waiting.add(id, at.get(static_cast<std::size_t>(lane)), 1);
-      if (id < 0 || id == ray.exclude || is_instance(scene, id)) continue;
+      if (is_no_shape(scene, id)) {
+        if (id >= 0) waiting.add(id, at.get(static_cast<std::size_t>(lane)), 1);
+        continue;
+      }
+      if (id == ray.exclude) continue;
       const ShapeLanes<LeafF> met = intersect_shape(scene.shapes, id, origin, dir, LeafF(ray.t_min));
       if ((to_bits(met.hit) & 1U) == 0) continue;
       const float t = met.t.get(0);

@@ -272,9 +272,8 @@ template <bool any>
     for (; some != 0; some &= some - 1) {
       const int lane = __builtin_ctz(some);
       const std::int32_t id = run.primitive(lane);
-      if (id < 0) continue;
-      if (is_instance(tile.scene, id)) {
-        waiting.add(id, boxes.near.get(static_cast<std::size_t>(lane)), touched[lane]);
+      if (is_no_shape(tile.scene, id)) {
+        if (id >= 0) waiting.add(id, boxes.near.get(static_cast<std::size_t>(lane)), touched[lane]);
         continue;
       }
       for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
