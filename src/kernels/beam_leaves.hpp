@@ -179,7 +179,6 @@ FASTRT_INLINE Extents<LeafF> extents_of_shapes(const Beam& beam, const BlockRun<
 template <bool any>
 FASTRT_INLINE void meet_instance(BeamTraversal<any>& t, std::int32_t id, std::uint64_t rays) {
   InstanceVisit visit;
-  visit.shape = BatchShape::coherent;
   visit.unit = group_size / widest;
   visit.count = 0;
   for (int g = 0; g < beam_groups; ++g)
@@ -193,11 +192,23 @@ FASTRT_INLINE void meet_instance(BeamTraversal<any>& t, std::int32_t id, std::ui
   }
 }
 
+// Instances are met by all groups together, after the run's other shapes.
+template <bool any>
+FASTRT_INLINE void meet_waiting(BeamTraversal<any>& t, WaitingInstances& waiting) {
+  while (waiting.count != 0) {
+    const int i = waiting.take();
+    std::uint64_t rays = waiting.rays[i];
+    for (int g = 0; g < beam_groups; ++g)
+      if (!(t.beam.groups[g].far >= waiting.near[i])) rays &= ~(0xFFFFULL << (g * group_size));
+    if (rays != 0) meet_instance(t, waiting.id[i], rays);
+  }
+}
+
 template <bool any>
 [[gnu::noinline]] static void meet_shapes(BeamTraversal<any>& t, const BlockRun<ShapeBlock>& run,
                                           std::uint64_t rays) noexcept {
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
-  std::uint64_t visitors[leaf_lanes] = {}; // of instances, all groups together
+  std::uint64_t visitors[leaf_lanes] = {}; // of instances
   std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
     const std::uint32_t group = rays_of_group(rays, g);
@@ -207,7 +218,7 @@ template <bool any>
       const int lane = __builtin_ctz(lanes);
       const std::int32_t id = run.primitive(lane);
       if (id < 0 || lane >= run.lanes) continue;
-      if (is_instance(t.scene, id)) {
+      if (is_no_shape(t.scene, id)) {
         visitors[lane] |= static_cast<std::uint64_t>(group) << (g * group_size);
         instances |= 1U << lane;
         continue;
@@ -221,10 +232,13 @@ template <bool any>
     }
     if (changed != 0) shorten_group(t, g, changed);
   }
+  if (instances == 0) return;
+  WaitingInstances waiting;
   for (; instances != 0; instances &= instances - 1) {
     const int lane = __builtin_ctz(instances);
-    meet_instance(t, run.primitive(lane), visitors[lane]);
+    waiting.add(run.primitive(lane), e.w.low.get(static_cast<std::size_t>(lane)), visitors[lane]);
   }
+  meet_waiting(t, waiting);
 }
 
 template <bool any>

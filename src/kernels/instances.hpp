@@ -129,7 +129,6 @@ FASTRT_INLINE void trace_instance(const GeometryView& scene, std::int32_t id, In
 
 // Which rays of a batch go to see an instance: registers of rays, `unit` of them together.
 struct InstanceVisit {
-  BatchShape shape;
   int unit, count;
   std::uint8_t first[batch_size / widest];
   std::uint16_t bits[batch_size / widest];
@@ -178,10 +177,42 @@ template <bool any>
   }
   if (count == 0) return;
   to.rays.count = count;
-  // What few rays save as a tile is less than what it takes to see them as one.
-  to.rays.shape = count > batch_size / 4 ? visit.shape : BatchShape::coherent;
+  // As a beam, not as a tile, even if all rays are left: an instance is mostly small in the picture and its
+  // triangles smaller still, and few rays in a subtree then go on alone.
+  to.rays.shape = BatchShape::coherent;
   trace_instance<any>(scene, id, to, hits, changed);
 }
+
+// The instances of a leaf that rays are to see, the nearest first: behind it many need not be seen any more.
+struct WaitingInstances {
+  int count = 0;
+  std::int32_t id[max_leaf_blocks * block_size];
+  float near[max_leaf_blocks * block_size];
+  std::uint64_t rays[max_leaf_blocks * block_size]; // or groups of them
+
+  [[gnu::always_inline]] inline void add(std::int32_t instance, float at, std::uint64_t which) {
+    id[count] = instance;
+    near[count] = at;
+    rays[count++] = which;
+  }
+  // Moves the nearest to the end and takes it from there.
+  [[gnu::always_inline]] inline int take() {
+    int nearest = 0;
+    for (int i = 1; i < count; ++i)
+      if (near[i] < near[nearest]) nearest = i;
+    --count;
+    const std::int32_t instance = id[nearest];
+    const float at = near[nearest];
+    const std::uint64_t which = rays[nearest];
+    id[nearest] = id[count];
+    near[nearest] = near[count];
+    rays[nearest] = rays[count];
+    id[count] = instance;
+    near[count] = at;
+    rays[count] = which;
+    return count;
+  }
+};
 
 // The same for ray i alone.
 template <bool any>

@@ -96,7 +96,9 @@ FASTRT_INLINE void meet_instance(const GeometryView& scene, const PacketBatch& b
                                  std::uint32_t active, std::int32_t id) {
   p.t.store_unaligned(batch.hits.t + batch.first);
   p.primitive.store_unaligned(batch.hits.primitive + batch.first);
-  InstanceVisit visit{BatchShape::coherent, 1, 0, {}, {}};
+  InstanceVisit visit;
+  visit.unit = 1;
+  visit.count = 0;
   add_rays(visit, batch.first, active);
   std::uint32_t changed[batch_groups] = {};
   meet_instance<any>(scene, batch.rays, batch.hits, id, visit, changed);
@@ -114,7 +116,7 @@ template <bool any>
       const SlabLanes<PacketF> slab = meet_box(p, block->low_x[i], block->high_x[i], block->low_y[i],
                                                block->high_y[i], block->low_z[i], block->high_z[i]);
       if ((to_bits(slab.near <= slab.far) & active) == 0) continue;
-      if (is_instance(scene, block->primitive[i])) {
+      if (is_no_shape(scene, block->primitive[i])) {
         meet_instance<any>(scene, batch, p, active, block->primitive[i]);
         continue;
       }

@@ -23,21 +23,22 @@ FASTRT_INLINE SlabAxis<LeafF> spread_leaf(const SlabAxis<float>& axis) {
   return {LeafF(axis.near_origin), LeafF(axis.far_origin), LeafF(axis.inverse)};
 }
 
-// The lanes whose boxes the ray meets before `bound`. Rows that are not used have an inverted box.
+// The lanes whose boxes the ray meets before `bound`, and where. Rows that are not used have an inverted box.
 template <class Ray>
-FASTRT_INLINE std::uint32_t boxes_met(const Ray& ray, const BlockRun<ShapeBlock>& run) {
+FASTRT_INLINE std::uint32_t boxes_met(const Ray& ray, const BlockRun<ShapeBlock>& run, LeafF& at) {
   const V3<LeafF> low = load_low(run), high = load_high(run);
   const bool bx = ray.near_x > ray.far_x, by = ray.near_y > ray.far_y, bz = ray.near_z > ray.far_z;
   const V3<LeafF> near{bx ? high.x : low.x, by ? high.y : low.y, bz ? high.z : low.z};
   const V3<LeafF> far{bx ? low.x : high.x, by ? low.y : high.y, bz ? low.z : high.z};
   const SlabLanes<LeafF> slab = intersect_slabs(spread_leaf(ray.x), spread_leaf(ray.y), spread_leaf(ray.z),
                                                 near, far, LeafF(ray.t_min), LeafF(ray.bound));
+  at = slab.near;
   return to_bits(slab.near <= slab.far) & ((1U << run.lanes) - 1U);
 }
 
-// Whether a leaf's shape is an instance: planes are in no leaf.
-FASTRT_INLINE bool is_instance(const GeometryView& scene, std::int32_t id) {
-  return id >= scene.shapes.first_plane;
+// An instance (planes are in no leaf), or a row that is not used.
+FASTRT_INLINE bool is_no_shape(const GeometryView& scene, std::int32_t id) {
+  return static_cast<std::uint32_t>(id) >= static_cast<std::uint32_t>(scene.shapes.first_plane);
 }
 
 // Ray i of a batch, which is `ray`, against an instance.
@@ -56,18 +57,29 @@ template <bool any, class Ray>
                                           int i, Ray& ray, std::uint32_t leaf) noexcept {
   const V3<LeafF> origin = {LeafF(ray.origin.x), LeafF(ray.origin.y), LeafF(ray.origin.z)};
   const V3<LeafF> dir = {LeafF(ray.dir.x), LeafF(ray.dir.y), LeafF(ray.dir.z)};
+  WaitingInstances waiting;
   for_each_run(scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
     ++ray.runs;
-    for (std::uint32_t bits = boxes_met(ray, run); bits != 0; bits &= bits - 1) {
-      const std::int32_t id = run.primitive(__builtin_ctz(bits));
-      if (is_instance(scene, id)) meet_instance_alone<any>(scene, rays, hits, id, i, ray);
-      if (id < 0 || id == ray.exclude || is_instance(scene, id)) continue;
+    LeafF at;
+    for (std::uint32_t bits = boxes_met(ray, run, at); bits != 0; bits &= bits - 1) {
+      const int lane = __builtin_ctz(bits);
+      const std::int32_t id = run.primitive(lane);
+      if (is_no_shape(scene, id)) {
+        if (id >= 0) waiting.add(id, at.get(static_cast<std::size_t>(lane)), 1);
+        continue;
+      }
+      if (id == ray.exclude) continue;
       const ShapeLanes<LeafF> met = intersect_shape(scene.shapes, id, origin, dir, LeafF(ray.t_min));
       if ((to_bits(met.hit) & 1U) == 0) continue;
       const float t = met.t.get(0);
       if (t < ray.t || (t == ray.t && id < ray.primitive)) shorten(ray, t, id);
     }
   });
+  while (waiting.count != 0) {
+    const int next = waiting.take();
+    if (waiting.near[next] <= ray.bound)
+      meet_instance_alone<any>(scene, rays, hits, waiting.id[next], i, ray);
+  }
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -249,7 +249,6 @@ FASTRT_INLINE Rectangles<LeafF> project_boxes(const TileFrame& f, const BlockRun
 template <bool any>
 FASTRT_INLINE void meet_instance(TileTraversal<any>& tile, std::int32_t id, std::uint32_t groups) {
   InstanceVisit visit;
-  visit.shape = tile.rays.shape;
   visit.unit = group_size / widest;
   visit.count = 0;
   for (std::uint32_t left = groups; left != 0; left &= left - 1) {
@@ -267,16 +266,16 @@ FASTRT_INLINE void meet_instance(TileTraversal<any>& tile, std::int32_t id, std:
 template <bool any>
 [[gnu::noinline]] static void meet_shapes(TileTraversal<any>& tile, std::uint32_t leaf,
                                           std::uint32_t groups) noexcept {
+  WaitingInstances waiting;
   for_each_run(tile.scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
     std::uint32_t touched[leaf_lanes];
-    std::uint32_t some =
-        touch_groups(tile.view.groups, project_boxes(tile.view.frame, run), lanes_of(run), groups, touched);
+    const Rectangles<LeafF> boxes = project_boxes(tile.view.frame, run);
+    std::uint32_t some = touch_groups(tile.view.groups, boxes, lanes_of(run), groups, touched);
     for (; some != 0; some &= some - 1) {
       const int lane = __builtin_ctz(some);
       const std::int32_t id = run.primitive(lane);
-      if (id < 0) continue;
-      if (is_instance(tile.scene, id)) {
-        meet_instance(tile, id, touched[lane]);
+      if (is_no_shape(tile.scene, id)) {
+        if (id >= 0) waiting.add(id, boxes.near.get(static_cast<std::size_t>(lane)), touched[lane]);
         continue;
       }
       for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
@@ -290,6 +289,12 @@ template <bool any>
       }
     }
   });
+  while (waiting.count != 0) {
+    const int i = waiting.take();
+    const std::uint32_t left =
+        static_cast<std::uint32_t>(waiting.rays[i]) & far_groups(tile.view.groups, waiting.near[i]);
+    if (left != 0) meet_instance(tile, waiting.id[i], left);
+  }
 }
 
 template <bool any>

@@ -27,8 +27,8 @@ bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 
 // How much rounding grows on the way to object space and back: by what the maps there and back add up at
 // most; and by how differently the map stretches along its axes, for a triangle's test mixes all coordinates
-// of a space in which they differ by that much. The 4 leaves 1 ray in 10^5 at most that meets its own mesh
-// where that is stretched 100 to 1.
+// of a space in which they differ by that much. The 4 leaves about 1 shadow ray in 10^5 that meets its own
+// mesh where that is stretched 100 to 1.
 double growth_of(const Affine& map, const Vec3d (&rows)[3]) {
   const auto grown = [&](int axis) {
     return weighed(map, glm::abs(Vec3d(rows[0][axis], rows[1][axis], rows[2][axis])));
