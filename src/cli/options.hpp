@@ -76,6 +76,10 @@ struct Options {
 // settled, which may be the scene's.
 void check_crop(const Options& options);
 
+// What the options about photons ask for together. Throws UsageError for what excludes each other, and warns
+// of what says nothing.
+void check_photons_together(Options& options);
+
 // Reads the command line. Throws UsageError for what it can't make sense of.
 Options parse_options(int argc, const char* const* argv);
 

@@ -18,10 +18,9 @@ void copy(const Vec3& from, float (&to)[3]) {
   to[2] = from.z;
 }
 
-EmissionView view_of(const PhotonLight& light, std::uint32_t row) {
+EmissionView view_of(const PhotonLight& light) {
   EmissionView view{};
   view.light = light.light;
-  view.row = row;
   view.count = light.count;
   copy(light.u, view.u);
   copy(light.v, view.v);
@@ -73,7 +72,7 @@ void trace_chunks(const PhotonPass& pass, std::atomic<std::size_t>& next_chunk, 
     if (index >= pass.chunks->size()) return;
     const PhotonChunk& chunk = (*pass.chunks)[index];
     PhotonJob job = pass.job;
-    job.emission = view_of(pass.plan->lights[chunk.row], chunk.row);
+    job.emission = view_of(pass.plan->lights[chunk.row]);
     job.last = chunk.last;
     scratch.next = chunk.first;
     TileRayCounts rays{};

@@ -19,7 +19,7 @@ struct alignas(64) PhotonBatch : PathBatch {
 
 // PhotonLight.
 struct EmissionView {
-  std::uint32_t light, row, count; // row: of the plan
+  std::uint32_t light, count; // photons
   float u[3], v[3], w[3];
   float cap_height;
   float middle[3], half_side;

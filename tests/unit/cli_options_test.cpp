@@ -31,6 +31,21 @@ TEST(CliOptions, DefaultsOfASceneAlone) {
   EXPECT_TRUE(options.show_progress);
 }
 
+TEST(CliOptions, Photons) {
+  const Options forward = parse({"a.obj", "--integrator", "forward", "--photons", "1073741824", "-s", "4"});
+  EXPECT_EQ(forward.integrator, Integrator::forward);
+  EXPECT_EQ(forward.photons, std::int64_t{1} << 30);
+  EXPECT_EQ(forward.warnings.size(), 1U); // of --spp
+  const Options caustics = parse({"--caustics", "a.obj", "--caustic-radius", "0.5"});
+  EXPECT_EQ(caustics.scene, "a.obj");
+  EXPECT_EQ(caustics.integrator, Integrator::whitted);
+  EXPECT_EQ(caustics.caustic_photons, 200000);
+  EXPECT_EQ(caustics.caustic_radius, 0.5F);
+  EXPECT_EQ(parse({"a.obj", "--caustics=17"}).caustic_photons, 17);
+  EXPECT_EQ(parse({"a.obj"}).caustic_photons, 0);
+  EXPECT_EQ(parse({"a.obj", "--photons", "5", "--caustic-radius", "1"}).warnings.size(), 2U);
+}
+
 TEST(CliOptions, EveryValue) {
   const Options options = parse({"-o",
                                  "b.png",
