@@ -251,8 +251,7 @@ void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
            for (const std::string& text : texts)
              options.lights.push_back(parse_light_option("--light", text));
          },
-         "point:X,Y,Z or dir:X,Y,Z, then [:R,G,B]; spot, rect, disk, sphere, mesh, emissive, default: see "
-         "README; may be repeated")
+         "point:X,Y,Z or dir:X,Y,Z, then [:R,G,B]; mesh:MATERIAL; more: see README; may be repeated")
       ->option_text("LIGHT")
       ->expected(1)
       ->allow_extra_args(false)

@@ -75,6 +75,10 @@ options_out_of_range() {
 --light lamp
 --light point:1,2
 --light spot:1,2,3
+--light mesh
+--light mesh:none
+--light emissive
+--light default:2
 --stats=xml
 --max-image-mb 0
 --bogus
