@@ -31,11 +31,11 @@ struct Sweep {
     for (int axis = 0; axis < 3; ++axis) boxes[axis].extend(bins.boxes[axis][i]);
     counts = _mm_add_epi32(counts, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bins.counts[i])));
   }
-  // An empty side has an infinite box and no blocks: NaN, which is less than nothing.
+  // An empty side has an infinite box and no runs: NaN, which is less than nothing.
   __m128 cost(__m128 scale) const {
     const __m128 z = area_terms(boxes[2], scale);
     const __m128 areas = sum_terms(area_terms(boxes[0], scale), area_terms(boxes[1], scale), z, z);
-    return _mm_mul_ps(areas, blocks_of(counts));
+    return _mm_mul_ps(areas, runs_of(counts));
   }
 };
 

@@ -60,7 +60,7 @@ struct BinSplit {
   int occupied = 0; // bins of the axis that are not empty
 };
 
-// The plane with the least area * blocks on both sides; none if no plane has something on either side.
+// The plane with the least area * runs on both sides; none if no plane has something on either side.
 BinSplit best_split(const Bins& bins, __m128 scale);
 
 // `bins` may be unclamped: the ends stay on their sides.

@@ -52,15 +52,13 @@ inline float half_area(const LaneBox& box, __m128 scale) {
   return _mm_cvtss_f32(sum_terms(terms, terms, terms, terms));
 }
 
-// How many blocks hold so many primitives.
-inline __m128 blocks_of(__m128i count) {
-  static_assert(block_size == 4);
-  return _mm_cvtepi32_ps(_mm_srli_epi32(_mm_add_epi32(count, _mm_set1_epi32(3)), 2));
+// In how many runs so many primitives are met.
+inline __m128 runs_of(__m128i count) {
+  static_assert(run_size == 8);
+  return _mm_cvtepi32_ps(_mm_srli_epi32(_mm_add_epi32(count, _mm_set1_epi32(7)), 3));
 }
 
-inline float blocks_of(std::size_t count) {
-  return static_cast<float>((count + block_size - 1) / block_size);
-}
+inline float runs_of(std::size_t count) { return static_cast<float>((count + run_size - 1) / run_size); }
 
 inline __m128 select(__m128 mask, __m128 yes, __m128 no) {
   return _mm_or_ps(_mm_and_ps(mask, yes), _mm_andnot_ps(mask, no));

@@ -20,7 +20,7 @@ double half_area(const BinaryNode& node) {
 }
 
 double leaf_cost(double area, std::size_t count) {
-  return area * static_cast<double>((count + block_size - 1) / block_size);
+  return area * static_cast<double>((count + run_size - 1) / run_size);
 }
 
 } // namespace

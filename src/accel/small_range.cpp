@@ -8,7 +8,7 @@ namespace fastrt {
 namespace {
 
 constexpr std::size_t max_leaf_size = std::size_t{block_size} * max_leaf_blocks;
-constexpr float node_cost = 0.25F; // of visiting a binary node, in block tests
+constexpr float node_cost = 0.1F; // of visiting a binary node, in runs
 constexpr int index_bits = 5;
 static_assert(small_range <= 1U << index_bits && small_range % 4 == 0);
 
@@ -40,7 +40,7 @@ public:
     if (!must_halve(level, count)) {
       if (homogeneous || count > block_size) split = best_split(begin, end);
       const float area = half_area(bounds, context_.scale);
-      const bool pays = count > max_leaf_size || node_cost * area + split.cost < blocks_of(count) * area;
+      const bool pays = count > max_leaf_size || node_cost * area + split.cost < runs_of(count) * area;
       if (!pays && homogeneous) return make_leaf_node(begin, end, bounds);
       if (!homogeneous && (!pays || split.axis < 0))
         return make_inner_node(begin, divide_by_group(begin, end), end, bounds, level);
@@ -118,8 +118,8 @@ private:
           sum_terms(left_terms[i], left_terms[i + 1], left_terms[i + 2], left_terms[i + 3]);
       const __m128 right_areas =
           sum_terms(right_terms[i], right_terms[i + 1], right_terms[i + 2], right_terms[i + 3]);
-      const __m128 costs = _mm_add_ps(_mm_mul_ps(left_areas, blocks_of(left_counts)),
-                                      _mm_mul_ps(right_areas, blocks_of(_mm_sub_epi32(counts, left_counts))));
+      const __m128 costs = _mm_add_ps(_mm_mul_ps(left_areas, runs_of(left_counts)),
+                                      _mm_mul_ps(right_areas, runs_of(_mm_sub_epi32(counts, left_counts))));
       const __m128 better = _mm_cmplt_ps(costs, best_costs);
       best_costs = select(better, costs, best_costs);
       best_counts = select(_mm_castps_si128(better), left_counts, best_counts);

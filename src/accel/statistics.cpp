@@ -15,7 +15,7 @@ double child_area(const WideNode& node, int i) {
               static_cast<double>(node.upper_z[i]) - static_cast<double>(node.lower_z[i]));
 }
 
-double visits(std::uint32_t child) { return is_leaf(child) ? leaf_blocks(child) : 1; }
+double visits(std::uint32_t child) { return is_leaf(child) ? leaf_runs(child) : 1; }
 
 } // namespace
 
