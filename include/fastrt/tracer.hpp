@@ -43,7 +43,7 @@ struct HitArrays {
 };
 
 struct BvhStats {
-  double sah_cost = 0; // expected node visits + runs of eight primitives of a random ray that meets the root
+  double sah_cost = 0; // expected node visits + tests of a leaf's primitives of a ray that meets the root
   std::size_t node_count = 0;
   std::size_t leaf_count = 0;
   std::size_t block_count = 0;

@@ -61,7 +61,7 @@ struct BinSplit {
 };
 
 // The plane with the least area * runs on both sides; none if no plane has something on either side.
-BinSplit best_split(const Bins& bins, __m128 scale);
+BinSplit best_split(const Bins& bins, __m128 scale, int run_log2);
 
 // `bins` may be unclamped: the ends stay on their sides.
 inline bool is_right(__m128i bins, const BinSplit& split) {

@@ -99,7 +99,8 @@ struct Part {
 
 class Collapser {
 public:
-  Collapser(const BinaryTree& tree, int threads) : tree_(tree), threads_(threads), plan_(tree, threads) {}
+  Collapser(const BinaryTree& tree, const BuildSettings& settings)
+      : tree_(tree), threads_(settings.threads), plan_(tree, settings) {}
 
   WideTree collapse() {
     const BinaryNode& root = tree_.nodes[0];
@@ -199,7 +200,7 @@ private:
 
 WideTree collapse(const BinaryTree& tree, const BuildSettings& settings) {
   if (tree.nodes.empty()) return {};
-  return Collapser(tree, settings.threads).collapse();
+  return Collapser(tree, settings).collapse();
 }
 
 } // namespace fastrt

@@ -10,7 +10,6 @@ namespace fastrt {
 inline constexpr int wide_children = 8;   // children of a wide node
 inline constexpr int block_size = 4;      // primitives of a leaf block
 inline constexpr int max_leaf_blocks = 4; // blocks of a leaf
-inline constexpr int run_size = 8;        // primitives that are met at once: what the tree's cost counts
 inline constexpr int max_groups = 8;      // groups (kinds of primitive) that a tree can tell apart
 inline constexpr int max_tree_depth = 80; // levels; the builder keeps to it
 inline constexpr int max_tree_stack = max_tree_depth * (wide_children - 1) + wide_children;
@@ -48,10 +47,6 @@ FASTRT_INLINE float box_size(std::uint32_t exponent) { return __builtin_bit_cast
 FASTRT_INLINE constexpr bool is_leaf(std::uint32_t child) { return (child & leaf_bit) != 0; }
 FASTRT_INLINE constexpr std::uint32_t leaf_group(std::uint32_t leaf) { return leaf >> 28U & 7U; }
 FASTRT_INLINE constexpr std::uint32_t leaf_blocks(std::uint32_t leaf) { return (leaf >> 26U & 3U) + 1U; }
-FASTRT_INLINE constexpr std::uint32_t leaf_runs(std::uint32_t leaf) {
-  constexpr std::uint32_t blocks = run_size / block_size;
-  return (leaf_blocks(leaf) + (blocks - 1U)) / blocks;
-}
 FASTRT_INLINE constexpr std::uint32_t leaf_first_block(std::uint32_t leaf) { return leaf & 0x3FFFFFFU; }
 
 } // namespace fastrt

@@ -99,9 +99,12 @@ void fill_shading_view(Tracer::Parts& parts) {
   }
 }
 
+// Where registers have four lanes, a leaf of eight triangles takes two tests.
+int run_size_of(Isa isa) { return isa_width(isa) < 8 ? 4 : 8; }
+
 void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
   BvhStats& stats = parts.stats;
-  stats.sah_cost = sah_cost(tree);
+  stats.sah_cost = sah_cost(tree, run_size_of(parts.isa));
   stats.node_count = tree.nodes.size();
   stats.leaf_count = leaf_count(tree);
   stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size() + parts.shape_blocks.size();
@@ -117,6 +120,7 @@ void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
 WideTree build(Tracer::Parts& parts, int threads) {
   BuildSettings settings;
   settings.threads = threads;
+  settings.run_size = run_size_of(parts.isa);
   WideTree tree;
   {
     Column<PrimitiveBox> boxes = primitive_boxes(parts.scene);
