@@ -73,9 +73,13 @@ FASTRT_INLINE void prepare_axis(LoneColumns& c, int axis, int i, const PacketF& 
                                 const PacketF& padding, const PacketF& least) {
   const PacketF sign = sign_bit(dir), pad = flip(padding, sign);
   const PacketF steep = select(abs(dir) < least, flip(least, sign), dir), inverse = PacketF(1.0F) / steep;
-  inverse.store_aligned(c.inverse[axis] + i);
-  ((origin + pad) * inverse).store_aligned(c.near_start[axis] + i);
-  ((origin - pad) * inverse).store_aligned(c.far_start[axis] + i);
+  const PacketF near_start = (origin + pad) * inverse, far_start = (origin - pad) * inverse;
+  // Numbers that run out of range cull nothing on this axis but unused children, whose boxes are infinite.
+  const PacketF none(__builtin_inff()), most(__FLT_MAX__);
+  const PacketM plain = (abs(inverse) < none) & (abs(near_start) < none) & (abs(far_start) < none);
+  select(plain, inverse, flip(PacketF(1e-30F), sign)).store_aligned(c.inverse[axis] + i);
+  select(plain, near_start, most).store_aligned(c.near_start[axis] + i);
+  select(plain, far_start, negate(most)).store_aligned(c.far_start[axis] + i);
   const PacketI lower(2 * axis * wide_children), upper((2 * axis + 1) * wide_children);
   simd::select(as_ints(sign) < PacketI(0), upper, lower).store_aligned(c.near_planes[axis] + i);
 }
