@@ -46,7 +46,7 @@ struct HitArrays {
 
 // Of all trees together: the scene's, and those of the prototypes.
 struct BvhStats {
-  double sah_cost = 0; // expected node visits + block tests of a random ray that meets the root box
+  double sah_cost = 0; // expected node visits + tests of a leaf's primitives of a ray that meets the root
   std::size_t node_count = 0;
   std::size_t leaf_count = 0;
   std::size_t block_count = 0;

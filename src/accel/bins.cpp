@@ -31,29 +31,29 @@ struct Sweep {
     for (int axis = 0; axis < 3; ++axis) boxes[axis].extend(bins.boxes[axis][i]);
     counts = _mm_add_epi32(counts, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bins.counts[i])));
   }
-  // An empty side has an infinite box and no blocks: NaN, which is less than nothing.
-  __m128 cost(__m128 scale) const {
+  // An empty side has an infinite box and no runs: NaN, which is less than nothing.
+  __m128 cost(__m128 scale, int run_log2) const {
     const __m128 z = area_terms(boxes[2], scale);
     const __m128 areas = sum_terms(area_terms(boxes[0], scale), area_terms(boxes[1], scale), z, z);
-    return _mm_mul_ps(areas, blocks_of(counts));
+    return _mm_mul_ps(areas, runs_of(counts, run_log2));
   }
 };
 
 } // namespace
 
-BinSplit best_split(const Bins& bins, __m128 scale) {
+BinSplit best_split(const Bins& bins, __m128 scale, int run_log2) {
   __m128 right_costs[bin_count];
   Sweep right;
   for (int i = bin_count - 1; i > 0; --i) {
     right.add(bins, i);
-    right_costs[i] = right.cost(scale);
+    right_costs[i] = right.cost(scale, run_log2);
   }
   Sweep left;
   __m128 best_costs = _mm_set1_ps(infinity);
   __m128i best_positions = _mm_setzero_si128();
   for (int i = 1; i < bin_count; ++i) {
     left.add(bins, i - 1);
-    const __m128 costs = _mm_add_ps(left.cost(scale), right_costs[i]);
+    const __m128 costs = _mm_add_ps(left.cost(scale, run_log2), right_costs[i]);
     const __m128 better = _mm_cmplt_ps(costs, best_costs);
     best_costs = select(better, costs, best_costs);
     best_positions = select(_mm_castps_si128(better), _mm_set1_epi32(i), best_positions);

@@ -60,8 +60,8 @@ struct BinSplit {
   int occupied = 0; // bins of the axis that are not empty
 };
 
-// The plane with the least area * blocks on both sides; none if no plane has something on either side.
-BinSplit best_split(const Bins& bins, __m128 scale);
+// The plane with the least area * runs on both sides; none if no plane has something on either side.
+BinSplit best_split(const Bins& bins, __m128 scale, int run_log2);
 
 // `bins` may be unclamped: the ends stay on their sides.
 inline bool is_right(__m128i bins, const BinSplit& split) {

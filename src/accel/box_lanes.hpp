@@ -52,14 +52,14 @@ inline float half_area(const LaneBox& box, __m128 scale) {
   return _mm_cvtss_f32(sum_terms(terms, terms, terms, terms));
 }
 
-// How many blocks hold so many primitives.
-inline __m128 blocks_of(__m128i count) {
-  static_assert(block_size == 4);
-  return _mm_cvtepi32_ps(_mm_srli_epi32(_mm_add_epi32(count, _mm_set1_epi32(3)), 2));
+// In how many runs of 2^run_log2 so many primitives are met.
+inline __m128 runs_of(__m128i count, int run_log2) {
+  const __m128i rounded = _mm_add_epi32(count, _mm_set1_epi32((1 << run_log2) - 1));
+  return _mm_cvtepi32_ps(_mm_srl_epi32(rounded, _mm_cvtsi32_si128(run_log2)));
 }
 
-inline float blocks_of(std::size_t count) {
-  return static_cast<float>((count + block_size - 1) / block_size);
+inline float runs_of(std::size_t count, int run_log2) {
+  return static_cast<float>((count + (std::size_t{1} << run_log2) - 1) >> run_log2);
 }
 
 inline __m128 select(__m128 mask, __m128 yes, __m128 no) {

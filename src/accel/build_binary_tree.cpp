@@ -5,6 +5,7 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -38,7 +39,9 @@ struct TopNode {
 
 class Builder {
 public:
-  Builder(Column<PrimitiveBox>& boxes, int threads) : boxes_(boxes), other_(boxes.size()), threads_(threads) {
+  Builder(Column<PrimitiveBox>& boxes, const BuildSettings& settings)
+      : boxes_(boxes), other_(boxes.size()), threads_(settings.threads) {
+    context_.run_log2 = std::countr_zero(static_cast<unsigned>(settings.run_size));
     tree_.order.resize(boxes.size());
     context_.order = tree_.order.data();
     context_.buffers[0] = boxes_.data();
@@ -114,12 +117,12 @@ private:
     }
     for (auto& child : top.children) child = std::make_unique<TopNode>();
     const bool halve = must_halve(top.range.level, top.range.size());
-    BinSplit split = halve ? BinSplit{} : best_split(bins, context_.scale);
+    BinSplit split = halve ? BinSplit{} : best_split(bins, context_.scale, context_.run_log2);
     if (!halve && split.occupied < few_bins && !top.range.tight) {
       measure_chunks(top);
       bins = Bins{};
       for (const Chunk& chunk : top.chunks) bins.add(chunk.bins);
-      split = best_split(bins, context_.scale);
+      split = best_split(bins, context_.scale, context_.run_log2);
     }
     if (split.axis >= 0) {
       move_chunks(top, bins, split);
@@ -214,7 +217,7 @@ BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& s
   if (boxes.empty()) return {};
   if (boxes.size() > std::size_t{max_blocks} * block_size)
     throw LimitError("too many primitives for one tree: " + std::to_string(boxes.size()));
-  return Builder(boxes, settings.threads).build();
+  return Builder(boxes, settings).build();
 }
 
 } // namespace fastrt

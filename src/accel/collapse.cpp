@@ -23,6 +23,8 @@ void set_box(WideNode& wide, int i, const BinaryNode& box) {
   wide.upper_y[i] = box.upper[1];
   wide.lower_z[i] = box.lower[2];
   wide.upper_z[i] = box.upper[2];
+  wide.size[i] = size_exponent(std::max(box.upper[0] - box.lower[0],
+                                        std::max(box.upper[1] - box.lower[1], box.upper[2] - box.lower[2])));
 }
 
 // Nodes and blocks in depth-first order: a node, the blocks of its leaves, then child by child what lies
@@ -56,7 +58,7 @@ public:
     nodes.resize(index + 1);
     WideNode& wide = nodes[index];
     for (int i = 0; i < wide_children; ++i) {
-      wide.unused[i] = 0;
+      wide.size[i] = 0;
       wide.child[i] = no_child;
       if (i < count) {
         set_box(wide, i, tree.nodes[children[i]]);
@@ -97,7 +99,8 @@ struct Part {
 
 class Collapser {
 public:
-  Collapser(const BinaryTree& tree, int threads) : tree_(tree), threads_(threads), plan_(tree, threads) {}
+  Collapser(const BinaryTree& tree, const BuildSettings& settings)
+      : tree_(tree), threads_(settings.threads), plan_(tree, settings) {}
 
   WideTree collapse() {
     const BinaryNode& root = tree_.nodes[0];
@@ -197,7 +200,7 @@ private:
 
 WideTree collapse(const BinaryTree& tree, const BuildSettings& settings) {
   if (tree.nodes.empty()) return {};
-  return Collapser(tree, settings.threads).collapse();
+  return Collapser(tree, settings).collapse();
 }
 
 } // namespace fastrt

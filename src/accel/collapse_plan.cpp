@@ -19,10 +19,6 @@ double half_area(const BinaryNode& node) {
   return x * y + y * z + z * x;
 }
 
-double leaf_cost(double area, std::size_t count) {
-  return area * static_cast<double>((count + block_size - 1) / block_size);
-}
-
 } // namespace
 
 // What lies below a node, and its least cost as at most k children of a wide node, k = 1 .. 7.
@@ -32,7 +28,12 @@ struct CollapsePlan::Part {
   std::uint32_t group; // of all its primitives, or mixed
 };
 
-CollapsePlan::CollapsePlan(const BinaryTree& tree, int threads) : tree_(tree), choices_(tree.nodes.size()) {
+double CollapsePlan::leaf_cost(double area, std::size_t count) const {
+  return area * static_cast<double>((count + run_size_ - 1) / run_size_);
+}
+
+CollapsePlan::CollapsePlan(const BinaryTree& tree, const BuildSettings& settings)
+    : tree_(tree), run_size_(static_cast<std::size_t>(settings.run_size)), choices_(tree.nodes.size()) {
   // The nodes near the root, breadth first; the last ones have the subtrees that are left to the tasks.
   std::vector<std::uint32_t> nodes{0};
   std::size_t top_count = 0, inner_count = 1;
@@ -49,7 +50,7 @@ CollapsePlan::CollapsePlan(const BinaryTree& tree, int threads) : tree_(tree), c
   }
   std::vector<Part> parts(nodes.size());
   TaskFailure failure;
-  run_tasks(threads, failure, [&] {
+  run_tasks(settings.threads, failure, [&] {
     for_each_index(nodes.size() - top_count,
                    [&](std::size_t i) { parts[top_count + i] = solve(nodes[top_count + i]); });
   });

@@ -3,6 +3,7 @@
 
 #include "src/accel/tree.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace fastrt {
@@ -12,7 +13,7 @@ namespace fastrt {
 class CollapsePlan {
 public:
   // Throws what running out of memory throws.
-  CollapsePlan(const BinaryTree& tree, int threads);
+  CollapsePlan(const BinaryTree& tree, const BuildSettings& settings);
 
   // Whether the node becomes one leaf with all that lies below it.
   bool is_leaf(std::uint32_t node) const { return (choices_[node] & leaf_choice) != 0; }
@@ -28,6 +29,7 @@ private:
   struct Part;
   Part solve(std::uint32_t node);
   Part solve_leaf(std::uint32_t node);
+  double leaf_cost(double area, std::size_t count) const;
   Part join(std::uint32_t node, const Part& left, const Part& right);
   int left_share(std::uint32_t node, int k) const {
     return static_cast<int>(choices_[node] >> (3 * k - 5) & 7U);
@@ -35,6 +37,7 @@ private:
   void expand(std::uint32_t node, int k, std::uint32_t* children, int& count) const;
 
   const BinaryTree& tree_;
+  std::size_t run_size_;
   Column<std::uint32_t> choices_;
 };
 

@@ -8,7 +8,8 @@ namespace fastrt {
 namespace {
 
 constexpr std::size_t max_leaf_size = std::size_t{block_size} * max_leaf_blocks;
-constexpr float node_cost = 0.25F; // of visiting a binary node, in block tests
+// Of visiting a binary node, in runs: longer ones have more room for what small nodes would tell apart.
+float node_cost(int run_log2) { return run_log2 > 2 ? 0.1F : 0.25F; }
 constexpr int index_bits = 5;
 static_assert(small_range <= 1U << index_bits && small_range % 4 == 0);
 
@@ -40,7 +41,8 @@ public:
     if (!must_halve(level, count)) {
       if (homogeneous || count > block_size) split = best_split(begin, end);
       const float area = half_area(bounds, context_.scale);
-      const bool pays = count > max_leaf_size || node_cost * area + split.cost < blocks_of(count) * area;
+      const bool pays = count > max_leaf_size || node_cost(context_.run_log2) * area + split.cost <
+                                                     runs_of(count, context_.run_log2) * area;
       if (!pays && homogeneous) return make_leaf_node(begin, end, bounds);
       if (!homogeneous && (!pays || split.axis < 0))
         return make_inner_node(begin, divide_by_group(begin, end), end, bounds, level);
@@ -99,6 +101,7 @@ private:
 
   // Tries every plane between two primitives of the axis' list, four at a time.
   void find_split(int axis, std::size_t begin, std::size_t count, SortedSplit& best) const {
+    const int run_log2 = context_.run_log2;
     const std::uint8_t* list = sorted_[axis] + begin;
     __m128 left_terms[small_range + 4], right_terms[small_range + 4];
     LaneBox left, right;
@@ -118,8 +121,9 @@ private:
           sum_terms(left_terms[i], left_terms[i + 1], left_terms[i + 2], left_terms[i + 3]);
       const __m128 right_areas =
           sum_terms(right_terms[i], right_terms[i + 1], right_terms[i + 2], right_terms[i + 3]);
-      const __m128 costs = _mm_add_ps(_mm_mul_ps(left_areas, blocks_of(left_counts)),
-                                      _mm_mul_ps(right_areas, blocks_of(_mm_sub_epi32(counts, left_counts))));
+      const __m128 costs =
+          _mm_add_ps(_mm_mul_ps(left_areas, runs_of(left_counts, run_log2)),
+                     _mm_mul_ps(right_areas, runs_of(_mm_sub_epi32(counts, left_counts), run_log2)));
       const __m128 better = _mm_cmplt_ps(costs, best_costs);
       best_costs = select(better, costs, best_costs);
       best_counts = select(_mm_castps_si128(better), left_counts, best_counts);

@@ -15,11 +15,14 @@ double child_area(const WideNode& node, int i) {
               static_cast<double>(node.upper_z[i]) - static_cast<double>(node.lower_z[i]));
 }
 
-double visits(std::uint32_t child) { return is_leaf(child) ? leaf_blocks(child) : 1; }
+double visits(std::uint32_t child, int run_size) {
+  const int blocks = run_size / block_size;
+  return is_leaf(child) ? (static_cast<int>(leaf_blocks(child)) + blocks - 1) / blocks : 1;
+}
 
 } // namespace
 
-double sah_cost(const WideTree& tree) {
+double sah_cost(const WideTree& tree, int run_size) {
   if (tree.root == no_child) return 0;
   const Vec3 lower = tree.bounds.lower, upper = tree.bounds.upper;
   const double root_area = area(static_cast<double>(upper.x) - static_cast<double>(lower.x),
@@ -28,8 +31,8 @@ double sah_cost(const WideTree& tree) {
   double sum = 0;
   for (const WideNode& node : tree.nodes)
     for (int i = 0; i < wide_children && node.child[i] != no_child; ++i)
-      sum += child_area(node, i) * visits(node.child[i]);
-  return visits(tree.root) + (root_area > 0 ? sum / root_area : 0);
+      sum += child_area(node, i) * visits(node.child[i], run_size);
+  return visits(tree.root, run_size) + (root_area > 0 ? sum / root_area : 0);
 }
 
 int tree_depth(const WideTree& tree) {

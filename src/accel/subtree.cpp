@@ -108,7 +108,7 @@ GroupedNode build_range(const BuildContext& context, const BuildRange& range, co
                         NodeList& list) {
   if (range.size() <= small_range) return build_small_range(context, range, list);
   if (must_halve(range.level, range.size())) return build_halves(context, range, list);
-  const BinSplit split = best_split(bins, context.scale);
+  const BinSplit split = best_split(bins, context.scale, context.run_log2);
   if (split.occupied < few_bins && !range.tight) {
     BuildRange tight = range;
     measure(context, tight);

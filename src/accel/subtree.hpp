@@ -16,6 +16,7 @@ struct BuildContext {
   PrimitiveBox* buffers[2]; // primitives travel between the two, one way per level
   __m128 scale;             // of areas
   bool one_group;           // all primitives are of one group
+  int run_log2 = 3;         // of the primitives that are met at once
 };
 
 // Nodes below some node, numbered from 0 in the order they are made; every child comes after its parent.

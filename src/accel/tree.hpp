@@ -39,10 +39,11 @@ struct BinaryTree {
 };
 
 struct BuildSettings {
-  int threads = 0; // 0 takes every core. The tree is the same for any number.
+  int threads = 0;  // 0 takes every core. The tree is the same for any number.
+  int run_size = 8; // primitives that are met at once, 4 or 8: what the tree's cost counts
 };
 
-// A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts blocks of `block_size`
+// A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts runs of run_size
 // primitives, not primitives. Leaves hold 1 .. block_size * max_leaf_blocks primitives of one group; at most
 // max_tree_depth levels. Uses `boxes` up: their values
 // afterwards mean nothing. Boxes must be finite.
@@ -64,8 +65,8 @@ struct WideTree {
 WideTree collapse(const BinaryTree& tree, const BuildSettings& settings);
 
 // SAH cost of the wide tree: sum over nodes of area / root area (one visit each), and over leaves of
-// area * blocks / root area. Units: one node visit = one block test = 1.
-double sah_cost(const WideTree& tree);
+// area * runs / root area. Units: one node visit = one run of primitives = 1.
+double sah_cost(const WideTree& tree, int run_size = 8);
 int tree_depth(const WideTree& tree);
 std::size_t leaf_count(const WideTree& tree);
 

@@ -22,8 +22,11 @@ struct alignas(64) WideNode {
   float lower_y[wide_children], upper_y[wide_children];
   float lower_z[wide_children], upper_z[wide_children];
   std::uint32_t child[wide_children];
-  std::uint32_t unused[wide_children];
+  std::uint32_t size[wide_children]; // the largest side of each box, see box_size()
 };
+
+// Sizes are powers of two, no less than the box's largest side, by their exponent: 8 bits.
+inline constexpr std::uint32_t size_bits = 0xFFU;
 
 // A child is an inner node (its index) or a leaf: bit 31 set, then 3 bits group, 2 bits blocks - 1, 26 bits
 // first block among the blocks of that group.
@@ -37,6 +40,10 @@ FASTRT_INLINE constexpr std::uint32_t make_leaf(std::uint32_t group, std::uint32
                                                 std::uint32_t blocks) {
   return leaf_bit | group << 28U | (blocks - 1U) << 26U | first_block;
 }
+FASTRT_INLINE std::uint32_t size_exponent(float side) {
+  return (__builtin_bit_cast(std::uint32_t, side) + 0x7FFFFFU) >> 23U;
+}
+FASTRT_INLINE float box_size(std::uint32_t exponent) { return __builtin_bit_cast(float, exponent << 23U); }
 FASTRT_INLINE constexpr bool is_leaf(std::uint32_t child) { return (child & leaf_bit) != 0; }
 FASTRT_INLINE constexpr std::uint32_t leaf_group(std::uint32_t leaf) { return leaf >> 28U & 7U; }
 FASTRT_INLINE constexpr std::uint32_t leaf_blocks(std::uint32_t leaf) { return (leaf >> 26U & 3U) + 1U; }

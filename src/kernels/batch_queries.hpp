@@ -31,29 +31,31 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // Neighbouring rays: as one beam, or where they point apart in packets.
 template <bool any>
-static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, int first,
-                        int count) noexcept {
-  if (trace_beam<any>(scene, rays, hits, first, count)) return;
+static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
+                        int first, int count) noexcept {
+  if (trace_beam<any>(scene, rays, hits, columns, first, count)) return;
   for (int i = first; i < first + count && i < rays.count; i += widest)
-    trace_packet<any>(scene, rays, hits, i);
+    trace_packet<any>(scene, rays, hits, columns, i);
 }
 
 template <bool any>
 static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   if (scene.root == no_child) return;
+  const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;
+  if (alike && scene.culls != 0 && trace_tile<any>(scene, rays, hits)) return;
+  LoneColumns columns;
+  columns.ready = 0;
   if (scene.culls == 0) {
-    for (int i = 0; i < rays.count; i += widest) trace_packet<any>(scene, rays, hits, i);
+    for (int i = 0; i < rays.count; i += widest) trace_packet<any>(scene, rays, hits, columns, i);
     return;
   }
   if (rays.shape == BatchShape::any) {
-    trace_rays_alone<any>(scene, rays, hits);
+    trace_rays_alone<any>(scene, rays, hits, columns);
     return;
   }
-  const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;
-  if (alike && trace_tile<any>(scene, rays, hits)) return;
   const int end = (rays.count + group_size - 1) / group_size * group_size;
   for (int first = 0; first < end; first += beam_size)
-    trace_alike<any>(scene, rays, hits, first, end - first < beam_size ? end - first : beam_size);
+    trace_alike<any>(scene, rays, hits, columns, first, end - first < beam_size ? end - first : beam_size);
 }
 
 template <bool any>

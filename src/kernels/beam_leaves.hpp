@@ -12,7 +12,8 @@ struct BeamTraversal {
   const GeometryView& scene;
   const RayBatch& rays;
   HitBatch& hits;
-  int first; // ray 0 of the beam in the batch
+  LoneColumns& columns; // of rays that go on alone
+  int first;            // ray 0 of the beam in the batch
   Beam& beam;
   std::uint64_t open; // rays that still look for a hit
   std::uint32_t nodes = 0, tests = 0;
@@ -59,7 +60,7 @@ FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<
     const V3<PacketF> origin = load_origin(t.rays, i);
     const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
     const TriangleLanes<PacketF> lanes = intersect_triangle(
-        set_up_triangle(a, b, c), load_dir(t.rays, i), [&] { return reach_of(a, b, c, largest(origin)); });
+        a, b, c, load_dir(t.rays, i), largest(origin), bits >> ((i - t.first) % group_size) & register_bits);
     return {lanes.inside & (lanes.t > PacketF::load_aligned(t.rays.t_min + i)), lanes.t};
   });
 }
@@ -68,7 +69,12 @@ FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<
 struct Candidates {
   std::uint32_t rays; // of all triangles
   int triangles;
-  std::uint32_t rays_of[leaf_lanes];
+  alignas(32) std::uint32_t rays_of[leaf_lanes];
+
+  // The triangles that ray i of the group may hit.
+  [[gnu::always_inline]] inline std::uint32_t triangles_of(int i) const {
+    return set_bits(Ints<leaf_lanes>::load_aligned(reinterpret_cast<const std::int32_t*>(rays_of)), i);
+  }
 };
 
 FASTRT_INLINE Candidates find_candidates(const Beam& beam, const FrameTriangles& f, std::uint32_t lanes,
@@ -93,18 +99,13 @@ inline constexpr int lone_test_share = 16;
 // Returns the rays that have a new hit.
 template <bool any>
 FASTRT_INLINE std::uint32_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int g,
-                                           std::uint32_t rays) {
-  t.tests += static_cast<std::uint32_t>(__builtin_popcount(rays) * run.lanes);
+                                           const Candidates& found) {
+  t.tests += static_cast<std::uint32_t>(__builtin_popcount(found.rays) * run.lanes);
   std::uint32_t changed = 0;
-  for (; rays != 0; rays &= rays - 1) {
+  for (std::uint32_t rays = found.rays; rays != 0; rays &= rays - 1) {
     const int lane = __builtin_ctz(rays), i = t.first + g * group_size + lane;
-    LoneRay ray;
-    ray.origin = {t.rays.origin_x[i], t.rays.origin_y[i], t.rays.origin_z[i]};
-    ray.dir = {t.rays.dir_x[i], t.rays.dir_y[i], t.rays.dir_z[i]};
-    ray.t_min = t.rays.t_min[i];
-    ray.exclude = t.rays.exclude[i];
-    shorten(ray, t.hits.t[i], t.hits.primitive[i]);
-    meet_run(ray, run);
+    LoneRay ray = lone_ray(t.rays, t.hits, i);
+    meet_triangles(ray, run, found.triangles_of(lane));
     if (ray.primitive == t.hits.primitive[i]) continue;
     t.hits.t[i] = ray.t;
     t.hits.primitive[i] = ray.primitive;
@@ -140,7 +141,7 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>
     const Candidates found = find_candidates(beam, f, touch_beam(beam.groups[g], e).touched, g, group);
     if (found.rays == 0) continue;
     const std::uint32_t changed = __builtin_popcount(found.rays) * widest <= found.triangles * lone_test_share
-                                      ? meet_run_alone(t, run, g, found.rays)
+                                      ? meet_run_alone(t, run, g, found)
                                       : meet_run_together(t, run, g, found);
     if (changed != 0) shorten_group(t, g, changed);
   }

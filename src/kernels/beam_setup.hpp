@@ -46,7 +46,6 @@ struct Beam {
 FASTRT_INLINE std::uint32_t rays_of_group(std::uint64_t rays, int g) {
   return static_cast<std::uint32_t>(rays >> (g * group_size)) & 0xFFFFU;
 }
-inline constexpr std::uint32_t register_bits = (1U << (widest - 1)) * 2U - 1U;
 
 // The sum of the directions of rays first .., each by its size, and which rays take part. Nothing if some ray
 // looks behind its origin: beams don't.

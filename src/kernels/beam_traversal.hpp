@@ -37,7 +37,7 @@ FASTRT_INLINE void go_on_alone(BeamTraversal<any>& t, std::uint32_t child, std::
   int count = 0;
   for (std::uint64_t bits = rays; bits != 0; bits &= bits - 1)
     which[count++] = static_cast<std::uint8_t>(t.first + __builtin_ctzll(bits));
-  trace_lone_rays<any>(t.scene, {t.rays, t.hits, child, which, which + count});
+  trace_lone_rays<any>(t.scene, {t.rays, t.hits, t.columns, child, which, which + count});
   for (int g = 0; g < beam_groups; ++g) {
     std::uint32_t found = 0;
     for (std::uint32_t bits = rays_of_group(rays, g); bits != 0; bits &= bits - 1) {
@@ -85,11 +85,11 @@ static void traverse_beam(BeamTraversal<any>& t) noexcept {
 // Traces rays first .. first + count - 1 (count: a multiple of group_size) as one; false (and nothing done)
 // if they point too widely apart.
 template <bool any>
-static bool trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, int first,
-                       int count) noexcept {
+static bool trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
+                       int first, int count) noexcept {
   Beam beam;
   if (!make_beam(scene, rays, first, count, beam)) return false;
-  BeamTraversal<any> t{scene, rays, hits, first, beam, beam.live};
+  BeamTraversal<any> t{scene, rays, hits, columns, first, beam, beam.live};
   for (int g = 0; g < count / group_size; ++g)
     beam.groups[g].far = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
   traverse_beam(t);

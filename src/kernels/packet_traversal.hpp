@@ -7,10 +7,6 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-using PacketF = Floats<widest>;
-using PacketI = Ints<widest>;
-using PacketM = Mask<widest>;
-
 // With this many rays left in a subtree or fewer, each follows it alone.
 inline constexpr int lone_ray_limit = widest / 8 + 1;
 
@@ -146,8 +142,8 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, const PacketBatch& batch
         if (block.primitive[i] < 0) break;
         const V3<PacketF> v0 = vertex(block, 0, i) - p.origin, v1 = vertex(block, 1, i) - p.origin,
                           v2 = vertex(block, 2, i) - p.origin;
-        const TriangleLanes<PacketF> lanes = intersect_triangle(
-            set_up_triangle(v0, v1, v2), p.dir, [&] { return reach_of(v0, v1, v2, largest(p.origin)); });
+        const TriangleLanes<PacketF> lanes =
+            intersect_triangle(v0, v1, v2, p.dir, largest(p.origin), to_bits(active));
         const PacketM hit = lanes.inside & active & (lanes.t > p.t_min);
         if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, lanes.t, block.primitive[i]);
       } else {
@@ -183,14 +179,15 @@ FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, s
 
 // The rays in `bits` follow the subtree `child` one by one.
 template <bool any>
-FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, int first,
-                               std::uint32_t child, std::uint32_t bits, Packet& p) {
+FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                               LoneColumns& columns, int first, std::uint32_t child, std::uint32_t bits,
+                               Packet& p) {
   p.t.store_unaligned(hits.t + first);
   p.primitive.store_unaligned(hits.primitive + first);
   std::uint8_t which[widest];
   int count = 0;
   for (; bits != 0; bits &= bits - 1) which[count++] = static_cast<std::uint8_t>(first + __builtin_ctz(bits));
-  trace_lone_rays<any>(scene, {rays, hits, child, which, which + count});
+  trace_lone_rays<any>(scene, {rays, hits, columns, child, which, which + count});
   p.t = load<PacketF>(hits.t + first);
   p.primitive = load<PacketI>(hits.primitive + first);
 }
@@ -198,7 +195,7 @@ FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, 
 // Rays first .. first + widest - 1 of the batch, as one packet.
 template <bool any>
 static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                         int first) noexcept {
+                         LoneColumns& columns, int first) noexcept {
   Packet p = load_packet(scene, rays, hits, first);
   const std::uint32_t live = to_bits(traceable_lanes(p.origin, p.dir, rays.count - first) & (p.t_min < p.t));
   if (live == 0) return;
@@ -221,7 +218,7 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
       continue;
     }
     if (__builtin_popcount(active_bits) <= lone_ray_limit) {
-      go_on_alone<any>(scene, rays, hits, first, child, active_bits, p);
+      go_on_alone<any>(scene, rays, hits, columns, first, child, active_bits, p);
       continue;
     }
     const WideNode& node = scene.nodes[child];

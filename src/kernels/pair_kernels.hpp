@@ -36,13 +36,12 @@ static void meet_triangles(const PairColumns& p, std::uint8_t* hits, float* ts, 
     const PairRay ray = load_ray(p, i);
     const V3<PacketF> v0 = load_primitive(p, 0, i) - ray.origin, v1 = load_primitive(p, 3, i) - ray.origin,
                       v2 = load_primitive(p, 6, i) - ray.origin;
-    const TriangleSetup<PacketF> setup = set_up_triangle(v0, v1, v2);
     const TriangleLanes<PacketF> lanes =
-        intersect_triangle(setup, ray.dir, [&] { return reach_of(v0, v1, v2, largest(ray.origin)); });
+        intersect_triangle(v0, v1, v2, ray.dir, largest(ray.origin), register_bits);
     store_hits(lanes.inside & (lanes.t > ray.t_min) & (lanes.t < PacketF(__builtin_inff())), lanes.t, i, hits,
                ts);
     if (us == nullptr) continue;
-    const auto [u, v] = triangle_weights(setup, ray.dir);
+    const auto [u, v] = triangle_weights(set_up_triangle(v0, v1, v2), ray.dir);
     u.store_unaligned(us + i);
     v.store_unaligned(vs + i);
   }

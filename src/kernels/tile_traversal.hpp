@@ -153,9 +153,8 @@ FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<Triang
     meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
       const V3<PacketF> origin = load_origin(tile.rays, ray);
       const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
-      const TriangleLanes<PacketF> lanes =
-          intersect_triangle(set_up_triangle(a, b, c), load_dir(tile.rays, ray),
-                             [&] { return reach_of(a, b, c, largest(origin)); });
+      const TriangleLanes<PacketF> lanes = intersect_triangle(
+          a, b, c, load_dir(tile.rays, ray), largest(origin), rays >> (ray % group_size) & register_bits);
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
     });
   });

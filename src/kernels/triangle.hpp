@@ -7,6 +7,9 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
+// How far outside an edge still counts, as a share of the edge's normal and of the direction.
+inline constexpr float edge_slack = 0x1p-22F;
+
 // What depends on the origin alone, turned so that `offset` is not negative.
 template <class F>
 struct TriangleSetup {
@@ -27,7 +30,7 @@ FASTRT_INLINE TriangleSetup<F> set_up_triangle(const V3<F>& a, const V3<F>& b, c
                      F(0.0F),
                      F(0.0F),
                      F(0.0F)};
-  const F share(0x1p-22F);
+  const F share(edge_slack);
   s.slack_a = share * largest(s.edge_a);
   s.slack_b = share * largest(s.edge_b);
   s.slack_c = share * largest(s.edge_c);
@@ -86,9 +89,22 @@ FASTRT_INLINE TriangleLanes<F> move_into_reach(const TriangleLanes<F>& lanes, co
   return {lanes.inside & (near <= far) & (abs(lanes.t) < F(__builtin_inff())), t};
 }
 
+// The lanes in `inside` at t, held to the reach that `reach()` gives: it is made only where some lane needs
+// it.
+template <class F, class Reach>
+FASTRT_INLINE TriangleLanes<F> held_to_reach(const TriangleLanes<F>& lanes, const V3<F>& dir,
+                                             const Reach& reach) {
+  const TriangleReach<F> r = reach();
+  const V3<F> q = dir * lanes.t;
+  const MaskOf<F> reached = (q.x >= r.low.x) & (q.x <= r.high.x) & (q.y >= r.low.y) & (q.y <= r.high.y) &
+                            (q.z >= r.low.z) & (q.z <= r.high.z);
+  if ((to_bits(lanes.inside) & ~to_bits(reached)) == 0) return lanes;
+  const TriangleLanes<F> moved = move_into_reach(lanes, r, dir);
+  return {lanes.inside & (reached | moved.inside), select(reached, lanes.t, moved.t)};
+}
+
 // Where the line through the origin along `dir` passes inside the triangle, and at which t. The caller checks
-// the range of t; NaN fails every comparison. The division, and the reach that `reach()` gives, wait until
-// some lane needs them.
+// the range of t; NaN fails every comparison. The division waits until some lane needs it.
 template <class F, class Reach>
 FASTRT_INLINE TriangleLanes<F> intersect_triangle(const TriangleSetup<F>& s, const V3<F>& dir,
                                                   const Reach& reach) {
@@ -99,14 +115,32 @@ FASTRT_INLINE TriangleLanes<F> intersect_triangle(const TriangleSetup<F>& s, con
   const MaskOf<F> inside =
       (u >= negate(s.slack_a * size)) & (v >= negate(s.slack_b * size)) & (w >= negate(s.slack_c * size));
   if (to_bits(inside) == 0) return {inside, F(0.0F)};
-  const TriangleLanes<F> lanes{inside, s.offset / dot(dir, s.normal)};
-  const TriangleReach<F> r = reach();
-  const V3<F> q = dir * lanes.t;
-  const MaskOf<F> reached = (q.x >= r.low.x) & (q.x <= r.high.x) & (q.y >= r.low.y) & (q.y <= r.high.y) &
-                            (q.z >= r.low.z) & (q.z <= r.high.z);
-  if ((to_bits(inside) & ~to_bits(reached)) == 0) return lanes;
-  const TriangleLanes<F> moved = move_into_reach(lanes, r, dir);
-  return {inside & (reached | moved.inside), select(reached, lanes.t, moved.t)};
+  return held_to_reach(TriangleLanes<F>{inside, s.offset / dot(dir, s.normal)}, dir, reach);
+}
+
+// The same for rays that share no set-up: U, V and W are turned instead of what they are made from, and what
+// an edge lets through beyond itself is computed only if one of the lanes in `asked` (bits) lies beyond one.
+// a, b, c: vertices relative to the rays' origins. Lanes that are not asked may come out as misses.
+template <class F>
+FASTRT_INLINE TriangleLanes<F> intersect_triangle(const V3<F>& a, const V3<F>& b, const V3<F>& c,
+                                                  const V3<F>& dir, const F& largest_origin,
+                                                  std::uint32_t asked) {
+  const F zero(0.0F);
+  const V3<F> edge_a = cross(b - c, b + c), edge_b = cross(c - a, c + a), edge_c = cross(a - b, a + b),
+              normal = cross(b - a, c - a);
+  const F offset = dot(a, normal), sign = sign_bit(offset);
+  const F u = flip(dot(dir, edge_a), sign), v = flip(dot(dir, edge_b), sign),
+          w = flip(dot(dir, edge_c), sign);
+  MaskOf<F> inside = (u >= zero) & (v >= zero) & (w >= zero);
+  if ((asked & ~to_bits(inside)) != 0) {
+    const F share(edge_slack), size = largest(dir);
+    inside = (u >= negate((share * largest(edge_a)) * size)) &
+             (v >= negate((share * largest(edge_b)) * size)) &
+             (w >= negate((share * largest(edge_c)) * size));
+  }
+  if ((asked & to_bits(inside)) == 0) return {inside, zero};
+  return held_to_reach(TriangleLanes<F>{inside, offset / dot(dir, normal)}, dir,
+                       [&] { return reach_of(a, b, c, largest_origin); });
 }
 
 // Weights of the second and third vertex at the point where the line meets the plane.

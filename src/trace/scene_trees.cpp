@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t parallel_from = 4096;
 
 // The binary tree is let go as soon as the wide one has been made of it.
-WideTree build_tree(Column<PrimitiveBox> boxes, int threads) {
-  const BuildSettings settings{boxes.size() < parallel_from ? 1 : threads};
+WideTree build_tree(Column<PrimitiveBox> boxes, BuildSettings settings) {
+  if (boxes.size() < parallel_from) settings.threads = 1;
   const BinaryTree binary = build_binary_tree(boxes, settings);
   return collapse(binary, settings);
 }
@@ -68,20 +68,20 @@ float largest_magnitude(const Aabb& box) {
   return std::fmax(v.x, std::fmax(v.y, v.z));
 }
 
-SceneTrees build_scene_trees(const Scene& scene, int threads) {
+SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings) {
   SceneTrees trees;
-  trees.all = build_tree(world_boxes(scene), threads);
+  trees.all = build_tree(world_boxes(scene), settings);
   BvhStats& stats = trees.stats;
   stats.leaf_count = leaf_count(trees.all);
-  stats.sah_cost = sah_cost(trees.all);
+  stats.sah_cost = sah_cost(trees.all, settings.run_size);
   stats.depth = tree_depth(trees.all);
   int depth = 0;
   std::vector<double> costs;
   for (const Prototype& prototype : scene.desc().prototypes) {
-    WideTree tree = build_tree(prototype_boxes(scene, prototype), threads);
+    WideTree tree = build_tree(prototype_boxes(scene, prototype), settings);
     depth = std::max(depth, tree_depth(tree));
     stats.leaf_count += leaf_count(tree);
-    costs.push_back(sah_cost(tree));
+    costs.push_back(sah_cost(tree, settings.run_size));
     const float largest = largest_magnitude(tree.bounds);
     trees.prototypes.push_back({append(trees.all, std::move(tree)), largest});
   }

@@ -24,8 +24,8 @@ struct SceneTrees {
   BvhStats stats; // of the trees alone: not the blocks' number and bytes
 };
 
-// threads: 0 takes every core. Throws LimitError for too many blocks.
-SceneTrees build_scene_trees(const Scene& scene, int threads);
+// Throws LimitError for too many blocks.
+SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings);
 
 // The largest |coordinate| of a box, 0 of an empty one.
 float largest_magnitude(const Aabb& box);

@@ -109,6 +109,9 @@ void fill_shading_view(Tracer::Parts& parts) {
   }
 }
 
+// Where registers have four lanes, a leaf of eight triangles takes two tests.
+int run_size_of(Isa isa) { return isa_width(isa) < 8 ? 4 : 8; }
+
 void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
   BvhStats& stats = parts.stats;
   stats = trees.stats;
@@ -122,7 +125,10 @@ void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
 
 // Trees -> blocks and rows.
 SceneTrees build(Tracer::Parts& parts, int threads) {
-  SceneTrees trees = build_scene_trees(parts.scene, threads);
+  BuildSettings settings;
+  settings.threads = threads;
+  settings.run_size = run_size_of(parts.isa);
+  SceneTrees trees = build_scene_trees(parts.scene, settings);
   const auto& slots = trees.all.slots;
   parts.triangle_blocks = triangle_blocks(parts.scene, slots[triangle_group], threads);
   parts.sphere_blocks = sphere_blocks(parts.scene, slots[sphere_group]);
