@@ -10,7 +10,7 @@ namespace {
 
 Light any_lamp(Random& random) {
   Light light = any_light(random);
-  light.kind = static_cast<LightKind>(random.below(6));
+  light.kind = static_cast<LightKind>(random.below(7));
   light.casts_shadows = random.below(4) != 0;
   light.intensity = Vec3(0.2F) + any_colour(random, 1);
   if (random.below(2) == 0) light.constant = random.uniform(), light.quadratic = random.uniform(0.01F, 0.3F);
@@ -35,6 +35,18 @@ void add_things(SceneBuilder& builder, std::uint32_t materials, Random& random) 
   if (random.below(4) == 0) add_any_plane(builder, random.below(materials), random);
 }
 
+// What lights that are meshes are made of: two triangles, or a ball of 20 or 80. Returns its material.
+std::uint32_t add_shining(SceneBuilder& builder, Random& random) {
+  Material shining = any_material(random);
+  shining.emission = {random.uniform(0.1F, 3), random.uniform(), 0};
+  const std::uint32_t material = builder.add_material(shining);
+  if (random.below(2) == 0)
+    add(builder, grid(1, 2.0F * random.in_cube(), random.direction(), random.direction()), material);
+  else
+    add_ball(builder, material, random);
+  return material;
+}
+
 // Material 0 is diffuse, so that photons leave something.
 Scene photon_scene(Random& random) {
   SceneBuilder builder;
@@ -44,7 +56,12 @@ Scene photon_scene(Random& random) {
   const std::uint32_t materials = 2 + random.below(4);
   for (std::uint32_t i = 1; i < materials; ++i) builder.add_material(any_material(random));
   add_things(builder, materials, random);
-  for (std::uint32_t i = 1 + random.below(3); i != 0; --i) builder.add_light(any_lamp(random));
+  const std::uint32_t shining = add_shining(builder, random);
+  for (std::uint32_t i = 1 + random.below(3); i != 0; --i) {
+    Light lamp = any_lamp(random);
+    lamp.material = shining;
+    builder.add_light(lamp);
+  }
   builder.set_background(any_colour(random, 0.2F));
   return builder.build();
 }

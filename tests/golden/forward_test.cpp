@@ -39,15 +39,24 @@ Light lamp(LightKind kind) {
   return light;
 }
 
+// A lamp of two triangles over the floor, outside of the picture, that shines to both sides.
+void add_mesh_lamp(SceneBuilder& builder, Light& light) {
+  Material shining = black();
+  shining.emission = {0.25F, 2, 1};
+  light.material = builder.add_material(shining);
+  add_quad(builder, {0.8F, 1.6F, -0.3F}, {0.4F, -0.4F, 0}, {0, 0, 0.6F}, light.material);
+}
+
 // Light that comes straight is the Whitted picture's, whatever the light and however it fades.
 TEST_P(Forward, DirectLightIsWhitteds) {
   const Camera camera{{0, 3, 0.01F}, {0, 0, 0}, {0, 0, -1}, 30};
   for (const LightKind kind : {LightKind::point, LightKind::directional, LightKind::spot,
-                               LightKind::rectangle, LightKind::disk, LightKind::sphere})
+                               LightKind::rectangle, LightKind::disk, LightKind::sphere, LightKind::mesh})
     for (const bool fades : {false, true}) {
       Light light = lamp(kind);
       if (fades) light.constant = 0.5F, light.linear = 0.3F, light.quadratic = 0.2F;
       SceneBuilder builder;
+      if (kind == LightKind::mesh) add_mesh_lamp(builder, light);
       builder.add_light(light);
       add_quad(builder, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, builder.add_material(matt(0.5F)));
       const Scene scene = builder.build();

@@ -90,6 +90,37 @@ TEST(PhotonLights, WhoSendsPhotons) {
   EXPECT_NEAR(static_cast<double>(forward.lights[0].count), 50.5, 1);
 }
 
+// A unit square that shines 3 to both sides, alone and beside a point: each sends by its light.
+TEST(PhotonLights, MeshesSendTheirShare) {
+  SceneBuilder builder = ball_over_floor();
+  Material shining;
+  shining.emission = {2, 1, 0};
+  Light mesh = lamp(LightKind::mesh);
+  mesh.intensity = Vec3(1.5F);
+  mesh.material = builder.add_material(shining);
+  const std::vector<Vec3> corners{{0, 5, 0}, {1, 5, 0}, {1, 5, 1}, {0, 5, 1}};
+  const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
+  builder.add_mesh(corners, indices, mesh.material);
+  builder.add_light(mesh);
+  for (const bool caustic : {false, true}) {
+    const Scene scene = SceneBuilder(builder).build();
+    const PhotonPlan plan = caustic ? plan_caustic_photons(scene, 1000) : plan_forward_photons(scene, 1000);
+    ASSERT_EQ(plan.lights.size(), 1U) << caustic;
+    EXPECT_EQ(plan.lights[0].cells.size(), std::size_t{emission_side} * emission_side);
+    EXPECT_FLOAT_EQ(plan.lights[0].flux.x, 6.0F);
+    EXPECT_FLOAT_EQ(plan.lights[0].flux.y, 3.0F);
+  }
+  Light point = lamp(LightKind::point); // that fades as its light spreads
+  point.intensity = Vec3(1.0F);
+  point.constant = 0;
+  point.quadratic = 1;
+  builder.add_light(point);
+  const PhotonPlan plan = plan_forward_photons(builder.build(), 100000);
+  ASSERT_EQ(plan.lights.size(), 2U);
+  const double sent = 4 * std::numbers::pi * static_cast<double>(plan.lights[1].cells.size()) / 4096;
+  EXPECT_NEAR(plan.lights[0].count, 1e5 * 6 / (6 + sent), 2);
+}
+
 TEST(PhotonLights, NothingToSend) {
   SceneBuilder builder;
   builder.add_sphere({0, 0, 0}, 1, builder.add_material({}));
