@@ -47,7 +47,8 @@ Ray sight_ray(const EyeProjection& eye, const Surface& surface, float z) {
     ray.direction = -eye.direction;
     ray.t_max = z;
   } else {
-    const float offset = offset_for(max(surface.magnitude, largest_magnitude(eye.origin)));
+    const float reached = largest_magnitude(eye.origin) * surface.growth;
+    const float offset = offset_for(max(surface.magnitude, reached));
     ray.origin = eye.origin;
     ray.direction = (surface.point + offset * surface.geometric_normal) - eye.origin;
     ray.t_max = 1.0F;
