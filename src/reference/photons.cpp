@@ -105,15 +105,16 @@ PhotonNode child_of(const PhotonNode& parent, const Surface& surface, const Vec3
 // Follows photons of one light.
 class Follower {
 public:
-  Follower(const Scene& scene, const HitFinder& finder, const RenderSettings& settings, bool scatter,
-           const Arrive& arrive, RayCounts& rays)
-      : scene_(scene), finder_(finder), settings_(settings), scatter_(scatter), arrive_(arrive), rays_(rays) {
-  }
+  Follower(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+           const RenderSettings& settings, bool scatter, const Arrive& arrive, RayCounts& rays)
+      : scene_(scene), finder_(finder), around_(around), settings_(settings), scatter_(scatter),
+        arrive_(arrive), rays_(rays) {}
 
   void follow(const PhotonLight& row, std::uint32_t row_index, std::uint32_t index) {
     ++rays_.primary;
     stack_.push_back(emit(scene_.lights()[row.light], scene_.light_meshes().lights[row.light], row, index,
                           settings_.seed));
+    stack_.back().media = around_.lights[row.light];
     while (!stack_.empty()) {
       PhotonNode photon = stack_.back();
       stack_.pop_back();
@@ -189,6 +190,7 @@ private:
 
   const Scene& scene_;
   const HitFinder& finder_;
+  const Surroundings& around_;
   const RenderSettings& settings_;
   bool scatter_;
   const Arrive& arrive_;
@@ -198,15 +200,16 @@ private:
 
 } // namespace
 
-void trace_photons(const Scene& scene, const HitFinder& finder, const PhotonPlan& plan,
-                   const std::vector<PhotonChunk>& chunks, const RenderSettings& settings, bool scatter,
-                   const Arrive& arrive, FrameProgress& progress) {
+void trace_photons(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+                   const PhotonPlan& plan, const std::vector<PhotonChunk>& chunks,
+                   const RenderSettings& settings, bool scatter, const Arrive& arrive,
+                   FrameProgress& progress) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count(settings.threads))
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     try {
       if (progress.stopped()) continue;
       RayCounts rays;
-      Follower follower(scene, finder, settings, scatter, arrive, rays);
+      Follower follower(scene, finder, around, settings, scatter, arrive, rays);
       for (std::uint32_t index = chunks[i].first; index < chunks[i].last; ++index)
         follower.follow(plan.lights[chunks[i].row], chunks[i].row, index);
       progress.part_done(rays);

@@ -106,6 +106,18 @@ FASTRT_INLINE void expose(std::int64_t* sum, float light) {
   __atomic_fetch_add(sum, static_cast<std::int64_t>(most * film_scale), __ATOMIC_RELAXED);
 }
 
+// In scenes that absorb: what is left of the light where the eye is in a medium. Bodies block the way, so
+// that the medium stays the same.
+FASTRT_INLINE void fade_towards_eye(const PhotonJob& job, TileScratch& scratch) {
+  const int count = scratch.shadow.count;
+  std::uint32_t alive[batch_size / widest];
+  for (int i = 0; i < count; i += widest) {
+    alive[i / widest] = count - i >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << (count - i)) - 1U;
+    for (int k = 0; k < max_media; ++k) PathI(job.eye.media[k]).store_aligned(scratch.shadow_media[k] + i);
+  }
+  trace_fading_shadows(*job.scene, false, alive, scratch);
+}
+
 // Collects what the eye sees of the batch's surfaces. Returns the number of rays to the eye.
 static std::uint64_t connect_to_eye(const PhotonJob& job, const PhotonBatch& rays,
                                     const ArrivalBatch& arrival, TileScratch& scratch) noexcept {
@@ -117,7 +129,9 @@ static std::uint64_t connect_to_eye(const PhotonJob& job, const PhotonBatch& ray
                  : job.eye.orthographic ? BatchShape::parallel
                                         : BatchShape::common_origin;
   LightBatch& left = scratch.light;
-  if (job.scene->shading.has_transmission != 0)
+  if (job.scene->shading.has_absorption != 0)
+    fade_towards_eye(job, scratch);
+  else if (job.scene->shading.has_transmission != 0)
     trace_coloured_shadows(*job.scene, shadow, scratch.shadow_hits, left);
   else
     trace_opaque_shadows(job.scene->geometry, shadow, scratch.shadow_hits, left);

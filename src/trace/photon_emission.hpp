@@ -101,7 +101,7 @@ static void emit_photons(const PhotonJob& job, std::uint32_t first, int count, P
     rays.width[i] = 0.0F;
     rays.length[i] = 0.0F;
     rays.bent[i] = 0;
-    for (auto& medium : rays.media) medium[i] = -1;
+    for (int k = 0; k < max_media; ++k) rays.media[k][i] = light.media[k];
   }
   rays.count = count;
   rays.depth = 0;
