@@ -105,6 +105,11 @@ Shot photon_shot(std::uint32_t seed, Integrator integrator, Theme theme = Theme:
     shot.camera.projection = Projection::orthographic;
     shot.camera.view_height = random.uniform(1, 6);
   }
+  // So far away that the offsets of the rays to the eye are as large as what they show.
+  if (theme == Theme::instances && random.below(2) == 0) {
+    shot.camera.eye *= 10000.0F;
+    shot.camera.fov_degrees *= 1e-4F;
+  }
   shot.settings = small_settings(21, 13);
   shot.settings.integrator = integrator;
   shot.settings.photons = 700 + random.below(1500);

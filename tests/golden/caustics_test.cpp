@@ -144,6 +144,33 @@ TEST_P(CausticPictures, LightIsNotCountedTwice) {
   }
 }
 
+// A lamp 1 below the face of a medium: on a ceiling 1 above it, light that spreads by angles of a in the
+// medium and of 1.5 a above it is (1 + 1.5)^2 / (1 + 1)^2 thinner. The medium takes its part of the way in
+// it.
+TEST_P(CausticPictures, LampInAMedium) {
+  SceneBuilder builder;
+  Light light;
+  light.kind = LightKind::spot;
+  light.position = Vec3(0.0F);
+  light.direction = {0, 1, 0};
+  light.cone_degrees = 12;
+  light.penumbra_degrees = 0;
+  builder.add_light(light);
+  Material medium = clear(1.5F);
+  medium.absorption = Vec3(0.3F);
+  add_box(builder, {-3, -3, -3}, {3, 1, 3}, builder.add_material(medium));
+  builder.add_disk({0, 2, 0}, {0, 1, 0}, 0.4F, builder.add_material(dark_matt()));
+  const Scene scene = builder.build();
+  Camera camera{{0, 1.5F, 0}, {0, 2, 0}, {0, 0, -1}};
+  camera.projection = Projection::orthographic;
+  camera.view_height = 0.4F;
+  const double expected = std::exp(-0.3) / (1.25 * 1.25);
+  for (const bool forward : {true, false}) {
+    const Frame frame = by_photons(scene, camera, settings_for_optics(), forward, 60000);
+    EXPECT_NEAR(light_in_the_middle(frame), expected, 0.03 * expected) << forward;
+  }
+}
+
 // How wide the light on a floor is that a ball of glass throws from a narrow beam: the root of its mean
 // square distance from the axis, and how much light there is.
 struct Spot {
