@@ -18,6 +18,11 @@ namespace fastrt {
 inline constexpr std::size_t column_alignment = 64;
 inline constexpr std::size_t column_padding = 16;
 
+// Memory for a column, not initialised; throws std::bad_alloc. Much of it is asked for in huge pages, where
+// the system has such. To be given back with the same number of bytes.
+void* allocate_column(std::size_t bytes);
+void free_column(void* memory, std::size_t bytes) noexcept;
+
 template <class T>
 class Column {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -38,7 +43,7 @@ public:
     swap(other);
     return *this;
   }
-  ~Column() { release(data_); }
+  ~Column() { release(); }
 
   void swap(Column& other) noexcept {
     std::swap(data_, other.data_);
@@ -104,16 +109,14 @@ public:
   }
 
 private:
-  static void release(T* data) noexcept { ::operator delete (data, std::align_val_t{column_alignment}); }
+  void release() noexcept { free_column(data_, bytes()); }
 
   void reallocate(std::size_t capacity) {
-    void* memory =
-        ::operator new ((capacity + column_padding) * sizeof(T), std::align_val_t{column_alignment});
-    T* data = static_cast<T*>(memory);
+    T* data = static_cast<T*>(allocate_column((capacity + column_padding) * sizeof(T)));
     if (size_ != 0)
       std::memcpy(static_cast<void*>(data), data_, (size_ < capacity ? size_ : capacity) * sizeof(T));
     std::memset(static_cast<void*>(data + capacity), 0, column_padding * sizeof(T));
-    release(data_);
+    release();
     data_ = data;
     capacity_ = capacity;
   }

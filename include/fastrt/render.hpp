@@ -3,6 +3,7 @@
 
 #include <fastrt/aov.hpp>
 #include <fastrt/camera.hpp>
+#include <fastrt/column.hpp>
 #include <fastrt/picture.hpp>
 #include <fastrt/tracer.hpp>
 
@@ -81,8 +82,8 @@ struct RayTests {
 // background).
 struct Frame {
   int width = 0, height = 0;
-  std::vector<float> rgb;
-  std::vector<std::int32_t> primitive;
+  Column<float> rgb;
+  Column<std::int32_t> primitive;
   std::vector<std::int32_t> samples; // that each pixel got; empty unless sampling was adaptive
   std::vector<AovPlane> aovs;        // those that were asked for, each once
   RayCounts rays;

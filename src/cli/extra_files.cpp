@@ -6,6 +6,7 @@
 #include <fastrt/error.hpp>
 #include <fastrt/write.hpp>
 
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -30,7 +31,7 @@ fs::path beside(const Options& options, const fs::path& output, const char* opti
   return stem;
 }
 
-void save_picture(const fs::path& path, const std::vector<float>& rgb, const Frame& frame, int threads) {
+void save_picture(const fs::path& path, std::span<const float> rgb, const Frame& frame, int threads) {
   save(path, encode_image(format_of(path), rgb, frame.width, frame.height, threads));
 }
 

@@ -21,8 +21,8 @@ int most_samples(const RenderSettings& settings) {
 // How bright a channel looks: 0 to 1.
 float look(float channel) { return std::sqrt(std::min(std::max(channel, 0.0F), 1.0F)); }
 
-template <class T>
-void cut_rows(std::vector<T>& values, std::size_t channels, const Crop& outer, const Crop& inner) {
+template <class Values>
+void cut_rows(Values& values, std::size_t channels, const Crop& outer, const Crop& inner) {
   const auto outer_width = static_cast<std::size_t>(outer.x1 - outer.x0);
   const auto width = static_cast<std::size_t>(inner.x1 - inner.x0);
   const auto x0 = static_cast<std::size_t>(inner.x0 - outer.x0);
@@ -30,9 +30,8 @@ void cut_rows(std::vector<T>& values, std::size_t channels, const Crop& outer, c
   const auto height = static_cast<std::size_t>(inner.y1 - inner.y0);
   if (values.empty()) return;
   for (std::size_t y = 0; y < height; ++y) {
-    const auto from = values.begin() + static_cast<std::ptrdiff_t>(channels * ((y0 + y) * outer_width + x0));
-    std::copy(from, from + static_cast<std::ptrdiff_t>(channels * width),
-              values.begin() + static_cast<std::ptrdiff_t>(channels * y * width));
+    const auto* const from = values.data() + channels * ((y0 + y) * outer_width + x0);
+    std::copy(from, from + channels * width, values.data() + channels * y * width);
   }
   values.resize(channels * width * height);
 }

@@ -51,27 +51,35 @@ Table inverse_of(Function f, double begin, double end) {
   return table;
 }
 
-} // namespace
+Filter gaussian_filter() {
+  static const Table table = inverse_of(gaussian, 0.0, gaussian_radius);
+  return {FilterShape::table, 0.0F, table.data(), nullptr};
+}
 
-Filter filter_of(PixelFilter filter) {
-  static const Table gaussian_table = inverse_of(gaussian, 0.0, gaussian_radius);
+Filter mitchell_filter() {
   static const Table core = inverse_of(mitchell, 0.0, lobe_begin);
   static const Table lobes = inverse_of(mitchell, lobe_begin, lobe_end);
   // The corners, where two lobes make a positive weight of 0.1 %, are left out.
   static const double core_area = areas_of(mitchell, 0.0, lobe_begin).back();
   static const double lobe_area = areas_of(mitchell, lobe_begin, lobe_end).back();
+  const double negative = 2 * lobe_area / (core_area - 2 * lobe_area);
+  return {FilterShape::table, static_cast<float>(negative), core.data(), lobes.data()};
+}
+
+} // namespace
+
+Filter filter_of(PixelFilter filter) {
   switch (filter) {
   case PixelFilter::box:
     return {FilterShape::box, 0.0F, nullptr, nullptr};
   case PixelFilter::tent:
     return {FilterShape::tent, 0.0F, nullptr, nullptr};
   case PixelFilter::gaussian:
-    return {FilterShape::table, 0.0F, gaussian_table.data(), nullptr};
+    return gaussian_filter();
   case PixelFilter::mitchell:
     break;
   }
-  const double negative = 2 * lobe_area / (core_area - 2 * lobe_area);
-  return {FilterShape::table, static_cast<float>(negative), core.data(), lobes.data()};
+  return mitchell_filter();
 }
 
 } // namespace fastrt

@@ -3,6 +3,7 @@
 
 #include <fastrt/error.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -93,15 +94,22 @@ const AovPlane* Frame::find(Aov aov) const noexcept {
   return nullptr;
 }
 
-Frame black_frame(int width, int height, const std::vector<Aov>& aovs) {
+Frame make_frame(int width, int height, const std::vector<Aov>& aovs) {
   Frame frame;
   frame.width = width;
   frame.height = height;
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  frame.rgb.assign(3 * pixels, 0.0F);
-  frame.primitive.assign(pixels, no_primitive);
+  frame.rgb.resize(3 * pixels);
+  frame.primitive.resize(pixels);
   for (const Aov aov : aovs)
     if (frame.find(aov) == nullptr) frame.aovs.push_back(empty_plane(aov, pixels));
+  return frame;
+}
+
+Frame black_frame(int width, int height, const std::vector<Aov>& aovs) {
+  Frame frame = make_frame(width, height, aovs);
+  std::fill(frame.rgb.begin(), frame.rgb.end(), 0.0F);
+  std::fill(frame.primitive.begin(), frame.primitive.end(), no_primitive);
   return frame;
 }
 

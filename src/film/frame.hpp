@@ -19,6 +19,9 @@ void check(const RenderSettings& settings);
 // The part of the picture that is made, all of it without a crop.
 Crop part_of(const RenderSettings& settings);
 
+// A frame's memory; its colours and primitives are for the threads to fill, who so touch it first.
+Frame make_frame(int width, int height, const std::vector<Aov>& aovs);
+
 // A black frame that sees nothing, with the AOVs that are asked for.
 Frame black_frame(int width, int height, const std::vector<Aov>& aovs = {});
 

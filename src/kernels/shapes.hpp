@@ -121,8 +121,29 @@ FASTRT_INLINE std::uint32_t odd_crossings(const EdgeRow* edge, const EdgeRow* en
   return odd;
 }
 
+// The same for a polygon in bands: each band's edges by the lanes whose points lie in it. Lanes in `bits`.
 template <class F>
-FASTRT_INLINE ShapeLanes<F> intersect_polygon(const PolygonRow& polygon, const EdgeRow* edges,
+FASTRT_INLINE std::uint32_t odd_band_crossings(const ShapeView& shapes, const PolygonRow& polygon,
+                                               std::uint32_t bits, const F& x, const F& y) {
+  const F most(static_cast<float>(polygon.band_count - 1)), zero(0.0F);
+  const F place = max(min((y - F(polygon.band_low)) * F(polygon.band_scale), most), zero);
+  const F band = simd::to_float(simd::to_int(place));
+  const MaskOf<F> lanes = from_bits<width_of<F>>(bits);
+  const auto first = static_cast<int>(reduce_min(select(lanes, band, most)));
+  const auto last = static_cast<int>(reduce_max(select(lanes, band, zero)));
+  std::uint32_t odd = 0;
+  for (int b = first; b <= last; ++b) {
+    const std::uint32_t here = to_bits(band == F(static_cast<float>(b))) & bits;
+    if (here == 0) continue;
+    const BandRow& row = shapes.bands[polygon.first_band + static_cast<std::uint32_t>(b)];
+    const EdgeRow* const edges = shapes.edges + row.first_edge;
+    odd |= odd_crossings(edges, edges + row.edge_count, x, y) & here;
+  }
+  return odd;
+}
+
+template <class F>
+FASTRT_INLINE ShapeLanes<F> intersect_polygon(const ShapeView& shapes, const PolygonRow& polygon,
                                               const V3<F>& origin, const V3<F>& dir, const F& t_min) {
   const V3<F> normal = broadcast3<F>(polygon.normal);
   const F t = dot(broadcast3<F>(polygon.point) - origin, normal) / dot(dir, normal);
@@ -131,7 +152,9 @@ FASTRT_INLINE ShapeLanes<F> intersect_polygon(const PolygonRow& polygon, const E
   if (to_bits(hit) == 0) return {hit, t};
   const F x = axis_of(origin, polygon.axis_x) + t * axis_of(dir, polygon.axis_x);
   const F y = axis_of(origin, polygon.axis_y) + t * axis_of(dir, polygon.axis_y);
-  const EdgeRow* const first = edges + polygon.first_edge;
+  if (polygon.band_count != 0)
+    return {from_bits<width_of<F>>(odd_band_crossings(shapes, polygon, to_bits(hit), x, y)), t};
+  const EdgeRow* const first = shapes.edges + polygon.first_edge;
   return {hit & from_bits<width_of<F>>(odd_crossings(first, first + polygon.edge_count, x, y)), t};
 }
 
@@ -151,7 +174,7 @@ template <class F>
   if (id < shapes.first_disk) return intersect_cone(shapes.cones[id - shapes.first_cone], origin, dir, t_min);
   if (id < shapes.first_polygon)
     return intersect_disk(shapes.disks[id - shapes.first_disk], origin, dir, t_min);
-  return intersect_polygon(shapes.polygons[id - shapes.first_polygon], shapes.edges, origin, dir, t_min);
+  return intersect_polygon(shapes, shapes.polygons[id - shapes.first_polygon], origin, dir, t_min);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

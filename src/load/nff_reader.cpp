@@ -200,12 +200,12 @@ void NffReader::read_polygon(bool is_patch) {
 
 SceneDesc read_nff(const Source& source, bool strict, Diagnostics& diagnostics) {
   if (source.size() > most_bytes) throw LimitError(in_quotes(source.name()) + " is larger than 1 GiB");
-  std::string text(source.size(), '\0');
-  source.read(0, text.data(), text.size());
+  std::string text(source.size() + nff_padding, '\0');
+  source.read(0, text.data(), source.size());
   EventLog log;
   SceneDesc desc;
   try {
-    desc = NffReader(text, log).run();
+    desc = NffReader(std::string_view(text).substr(0, source.size()), log).run();
   } catch (const NffFailure&) {
     // It is in the log.
   }

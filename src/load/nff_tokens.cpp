@@ -51,7 +51,21 @@ bool NffTokens::is_number_next() {
   return !next.empty() && parse_number(next).fault == NumberFault::none;
 }
 
+// A number as most are written; false, and nothing taken, for all else.
+bool NffTokens::take_plain_number(float& value) {
+  const std::size_t begin = skip_blanks(end_);
+  const char* p = text_.data() + begin;
+  if (!take_float(p, value)) return false;
+  const auto end = static_cast<std::size_t>(p - text_.data());
+  if (end_of_word(end) != end) return false;
+  offset_ = begin;
+  end_ = end;
+  return true;
+}
+
 float NffTokens::number(const char* what) {
+  float plain = 0.0F;
+  if (take_plain_number(plain)) return plain;
   const std::string_view text = word();
   if (text.empty()) fail(std::string("the file ends within ") + in_quotes(what));
   const Number number = parse_number(text);

@@ -16,8 +16,12 @@ namespace fastrt {
 // What a failed read throws once it has been logged.
 struct NffFailure {};
 
+// Bytes past its end that a reader may look at.
+inline constexpr std::size_t nff_padding = 16;
+
 class NffTokens {
 public:
+  // After the text come `nff_padding` bytes that are 0.
   NffTokens(std::string_view text, EventLog& log) : text_(text), log_(log) {}
 
   // The next word; empty at the end of the file.
@@ -41,6 +45,7 @@ public:
   [[noreturn]] void fail(std::string message);
 
 private:
+  bool take_plain_number(float& value);
   std::size_t skip_blanks(std::size_t at) const;
   std::size_t end_of_word(std::size_t at) const;
 

@@ -9,6 +9,7 @@
 #include "src/scene/threads.hpp"
 
 #include <exception>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -107,7 +108,7 @@ Vec3 load(const std::vector<float>& values, std::size_t pixel) {
   return {values[3 * pixel], values[3 * pixel + 1], values[3 * pixel + 2]};
 }
 
-void store(const Vec3& value, std::size_t pixel, std::vector<float>& values) {
+void store(const Vec3& value, std::size_t pixel, std::span<float> values) {
   for (int c = 0; c < 3; ++c) values[3 * pixel + static_cast<std::size_t>(c)] = value[c];
 }
 

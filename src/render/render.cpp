@@ -111,27 +111,43 @@ RayCounts to_counts(const TileRayCounts& rays) {
 
 TestCounts to_counts(const TileTestCounts& tests) { return {tests.boxes, tests.primitives}; }
 
+int tiles_along(int pixels) { return (pixels + tile_side - 1) / tile_side; }
+
+int tile_count(const TileJob& job) {
+  return tiles_along(job.x_end - job.x_begin) * tiles_along(job.y_end - job.y_begin);
+}
+
+TileJob job_of_tile(const TileJob& frame_job, int tile) {
+  const int columns = tiles_along(frame_job.x_end - frame_job.x_begin);
+  TileJob job = frame_job;
+  job.x = job.x_begin + tile % columns * tile_side;
+  job.y = job.y_begin + tile / columns * tile_side;
+  return job;
+}
+
 // One thread's share of the tiles, until none is left.
-void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, int tile_columns, int tile_count,
-                  std::atomic<int>& next_tile, FrameProgress& progress) {
+void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, std::atomic<int>& next_tile,
+                  FrameProgress& progress) {
   TileMemory memory(frame_job.max_depth);
+  const int count = tile_count(frame_job);
   while (!progress.stopped()) {
     const int tile = next_tile.fetch_add(1, std::memory_order_relaxed);
-    if (tile >= tile_count) return;
-    TileJob job = frame_job;
-    job.x = job.x_begin + tile % tile_columns * tile_side;
-    job.y = job.y_begin + tile / tile_columns * tile_side;
+    if (tile >= count) return;
     TileRayCounts rays{};
-    parts.kernels->render_tile(job, memory.scratch(), rays);
+    parts.kernels->render_tile(job_of_tile(frame_job, tile), memory.scratch(), rays);
     progress.part_done(to_counts(rays), {to_counts(rays.primary_tests), to_counts(rays.shadow_tests),
                                          to_counts(rays.secondary_tests)});
   }
 }
 
-int tiles_along(int pixels) { return (pixels + tile_side - 1) / tile_side; }
-
-int tile_count(const TileJob& job) {
-  return tiles_along(job.x_end - job.x_begin) * tiles_along(job.y_end - job.y_begin);
+// A tile that nobody came to: black, and sees nothing.
+void blacken(const TileJob& job) {
+  const int x_end = std::min(job.x + tile_side, job.x_end), y_end = std::min(job.y + tile_side, job.y_end);
+  for (int y = job.y; y < y_end; ++y) {
+    const std::ptrdiff_t row = std::ptrdiff_t{y - job.y_begin} * (job.x_end - job.x_begin) - job.x_begin;
+    std::fill(job.rgb + 3 * (row + job.x), job.rgb + 3 * (row + x_end), 0.0F);
+    std::fill(job.primitive + row + job.x, job.primitive + row + x_end, no_primitive);
+  }
 }
 
 // All tiles, by all threads.
@@ -141,11 +157,14 @@ void render_all(const Tracer::Parts& parts, const TileJob& job, int threads, Fra
   {
     // Exceptions must not leave a parallel region.
     try {
-      render_tiles(parts, job, tiles_along(job.x_end - job.x_begin), tile_count(job), next_tile, progress);
+      render_tiles(parts, job, next_tile, progress);
     } catch (...) {
       progress.failed(std::current_exception());
     }
   }
+  // Whoever took a tile has finished it.
+  if (job.round.sum == nullptr)
+    for (int tile = next_tile; tile < tile_count(job); ++tile) blacken(job_of_tile(job, tile));
 }
 
 // Round by round, each of all tiles.
@@ -184,7 +203,8 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
   check(settings);
   const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
   const Crop part = part_with_margin(settings);
-  Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
+  const auto make = settings.adaptive > 0.0F ? black_frame : make_frame;
+  Frame frame = make(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
   TileJob job = make_job(parts, camera_frame, settings, part, frame);
   std::optional<Caustics> caustics;
   if (settings.caustic_photons > 0) caustics.emplace(parts, settings);

@@ -8,13 +8,43 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
+using CameraF = Floats<widest>;
+using CameraV = V3<CameraF>;
+
 // Where rays go through the image and the lens.
 struct alignas(64) SamplePlaces {
   float px[batch_size], py[batch_size];
   float lens_a[batch_size], lens_b[batch_size];
 };
 
+// Where the pixels of a group of 4 x 4 lie in it.
+struct alignas(64) GroupPixels {
+  std::int32_t x[group_size], y[group_size];
+};
+inline constexpr GroupPixels group_pixels = [] {
+  GroupPixels pixels{};
+  for (int i = 0; i < group_size; ++i) {
+    pixels.x[i] = tile_pixel_x(i);
+    pixels.y[i] = tile_pixel_y(i);
+  }
+  return pixels;
+}();
+
+FASTRT_INLINE void place_all_centers(const TileJob& job, SamplePlaces& to) {
+  const CameraF half(0.5F);
+  for (int i = 0; i < batch_size; i += widest) {
+    const int group = i / group_size * group_size, k = i % group_size;
+    const Ints<widest> x =
+        Ints<widest>::load_aligned(group_pixels.x + k) + Ints<widest>(picture_x(job, group));
+    const Ints<widest> y =
+        Ints<widest>::load_aligned(group_pixels.y + k) + Ints<widest>(picture_y(job, group));
+    (simd::to_float(x) + half).store_aligned(to.px + i);
+    (simd::to_float(y) + half).store_aligned(to.py + i);
+  }
+}
+
 FASTRT_INLINE void place_centers(const TileJob& job, const TileScratch& scratch, SamplePlaces& to) {
+  if (scratch.place_count == batch_size) return place_all_centers(job, to);
   for (int i = 0; i < scratch.place_count; ++i) {
     to.px[i] = static_cast<float>(picture_x(job, scratch.places[i])) + 0.5F;
     to.py[i] = static_cast<float>(picture_y(job, scratch.places[i])) + 0.5F;
@@ -44,9 +74,6 @@ FASTRT_INLINE void place_samples(const TileJob& job, const TileScratch& scratch,
   for (int i = 0; i < scratch.place_count; ++i) place_sample(job, scratch.places[i], set, i, to);
 }
 
-using CameraF = Floats<widest>;
-using CameraV = V3<CameraF>;
-
 // (first + du * px) + dv * py
 FASTRT_INLINE CameraV image_point(const CameraView& camera, const SamplePlaces& places, int i) {
   return (broadcast3<CameraF>(camera.corner) +
@@ -74,13 +101,15 @@ FASTRT_INLINE void aim(const CameraView& camera, CameraKind kind, const SamplePl
 // caller says which row of `radiance` each adds to.
 FASTRT_INLINE void aim_rays(const TileJob& job, CameraKind kind, const SamplePlaces& places, int count,
                             PathBatch& rays) {
+  const ShadingView& scene = job.scene->shading;
   for (int i = 0; i < count; i += widest) {
     aim(job.camera, kind, places, i, rays);
     CameraF(0.0F).store_aligned(rays.t_min + i);
     CameraF(__builtin_inff()).store_aligned(rays.t_max + i);
     store3(broadcast3<CameraF>(1.0F, 1.0F, 1.0F), rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
     Ints<widest>(-1).store_aligned(rays.exclude + i);
-    CameraF(job.width).store_aligned(rays.width + i);
+    if (scene.has_textures != 0) CameraF(job.width).store_aligned(rays.width + i);
+    if (scene.has_transmission == 0) continue;
     for (int k = 0; k < max_media; ++k) Ints<widest>(job.eye_media[k]).store_aligned(rays.media[k] + i);
   }
   rays.count = count;
@@ -93,7 +122,7 @@ FASTRT_INLINE void aim_rays(const TileJob& job, CameraKind kind, const SamplePla
 // Sample `index` of the places, or with -1 their centres, seen through the middle of a lens.
 FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, const TileScratch& scratch,
                                     PathBatch& rays) {
-  SamplePlaces places{};
+  SamplePlaces places;
   CameraKind kind = job.camera.kind;
   if (index < 0)
     place_centers(job, scratch, places);
@@ -101,15 +130,15 @@ FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, const TileScr
     place_samples(job, scratch, index, places);
   if (index < 0 && kind == CameraKind::lens) kind = CameraKind::pinhole;
   aim_rays(job, kind, places, scratch.place_count, rays);
-  for (int i = 0; i < scratch.place_count; ++i) {
+  __builtin_memcpy(rays.pixel, scratch.places, sizeof rays.pixel);
+  if (is_whole(job)) return;
+  for (int i = 0; i < scratch.place_count; ++i)
     if (!in_frame(job, scratch.places[i])) rays.t_max[i] = 0.0F;
-    rays.pixel[i] = scratch.places[i];
-  }
 }
 
 // The rows of `scratch`, which all are in the frame.
 FASTRT_INLINE void make_row_rays(const TileJob& job, const TileScratch& scratch, PathBatch& rays) {
-  SamplePlaces places{};
+  SamplePlaces places;
   for (int i = 0; i < scratch.row_count; ++i) {
     place_sample(job, scratch.row_places[i], sample_set_of(job, scratch.row_samples[i]), i, places);
     rays.pixel[i] = i;

@@ -173,13 +173,13 @@ static void scatter_photons(const PhotonJob& job, const PhotonBatch& rays, const
     if (arrival.lit[i / widest] == 0) continue;
     const std::uint32_t bits = worth_tracing(weight, job.min_contribution) & arrival.lit[i / widest];
     if (bits == 0) continue;
-    NewRays next;
     const PathV normal = load_geometric(s, i);
     const PathF offset = PathF::load_aligned(s.magnitude + i) * PathF(offset_share);
-    store_lanes(load_point(s, i) + normal * offset, next.origin);
-    store_lanes(scattered_direction(rays, normal, bits, i), next.dir);
-    store_lanes(weight, next.weight);
-    append_rays(next, rays, s, keep, nullptr, i, bits, out);
+    const std::int32_t* media[max_media];
+    for (int k = 0; k < max_media; ++k) media[k] = rays.media[k] + i;
+    append_rays(
+        {load_point(s, i) + normal * offset, scattered_direction(rays, normal, bits, i), weight, bits}, rays,
+        s, keep, media, i, out);
   }
 }
 

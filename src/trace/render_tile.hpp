@@ -71,9 +71,34 @@ static void take_rows(const TileJob& job, TileScratch& scratch, TileRayCounts& c
   }
 }
 
+// Row for row, where each pixel is in the tile's order.
+struct TileRows {
+  std::uint8_t place[tile_side][tile_side];
+};
+inline constexpr TileRows tile_rows = [] {
+  TileRows rows{};
+  for (int i = 0; i < batch_size; ++i)
+    rows.place[tile_pixel_y(i)][tile_pixel_x(i)] = static_cast<std::uint8_t>(i);
+  return rows;
+}();
+
+// The tile's one sample into the frame, whose edge it does not reach.
+static void write_whole_tile(const TileJob& job, const TileScratch& scratch) noexcept {
+  for (int y = 0; y < tile_side; ++y) {
+    const std::uint8_t* const places = tile_rows.place[y];
+    const long row = frame_pixel(job, places[0]);
+    for (int x = 0; x < tile_side; ++x) {
+      const int i = places[x];
+      put_color(job.rgb, row + x, scratch.radiance_r[i], scratch.radiance_g[i], scratch.radiance_b[i]);
+      job.primitive[row + x] = scratch.first_primitive[i];
+    }
+  }
+}
+
 // The tile's pixels into the frame.
 static void write_tile(const TileJob& job, const TileScratch& scratch) noexcept {
   const bool one = job.last_sample == 0;
+  if (one && is_whole(job)) return write_whole_tile(job, scratch);
   const SampleWeights weights = sample_weights(job.filter, static_cast<std::uint32_t>(job.last_sample));
   for (int i = 0; i < batch_size; ++i) {
     if (!in_frame(job, i)) continue;

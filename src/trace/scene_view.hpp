@@ -48,6 +48,12 @@ struct PolygonRow {
   float point[3], normal[3], side[3];
   float low[3], high[3];
   std::uint32_t axis_x, axis_y, first_edge, edge_count;
+  std::uint32_t first_band, band_count; // 0 bands: few edges, which are looked at one by one
+  float band_low, band_scale;           // the height y lies in the band (y - band_low) * band_scale
+};
+// Heights of a polygon with many edges, and the edges (a list of their own) that reach into them.
+struct BandRow {
+  std::uint32_t first_edge, edge_count;
 };
 struct EdgeRow {
   float low, high, x, slope;
@@ -74,6 +80,7 @@ struct ShapeView {
   const DiskRow* disks;
   const PolygonRow* polygons;
   const EdgeRow* edges;
+  const BandRow* bands;
   const PlaneRow* planes; // in no tree: every ray is held against every plane
   const InstanceRow* instances;
   std::int32_t first_cone, first_disk, first_polygon, first_plane, first_instance; // ids

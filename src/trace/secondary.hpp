@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflected and refracted rays: directions, weights, media (docs/numerics.md, "Secondary rays"). Rays that
-// are worth tracing are appended to the child batches lane by lane, so that those are full.
+// are worth tracing are appended to the child batches side by side, so that those are full.
 #pragma once
 
+#include "src/simd/compress.hpp"
 #include "src/trace/lighting.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -10,7 +11,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 // What surrounds the rays of a packet before and after the surface, per lane.
 struct MediaLanes {
   alignas(64) float ior_before[widest], ior_after[widest];
-  std::int32_t after[max_media][widest];
+  alignas(64) std::int32_t after[max_media][widest];
 };
 
 FASTRT_INLINE void cross_surface(const ShadingView& scene, const PathBatch& rays, std::int32_t material,
@@ -106,40 +107,40 @@ FASTRT_INLINE KeptColumns kept_columns(const ShadingView& scene) {
   return {scene.has_transmission != 0, scene.has_textures != 0, scene.shapes.instance_count != 0};
 }
 
-// One packet's worth of new rays, before the ones worth tracing are picked.
+// New rays of one register, and the lanes that have one.
 struct NewRays {
-  alignas(64) float origin[3][widest], dir[3][widest], weight[3][widest];
+  PathV origin, dir, weight;
+  std::uint32_t bits;
 };
 
 FASTRT_INLINE void store_lanes(const PathV& v, float (*to)[widest]) { store3(v, to[0], to[1], to[2]); }
 
-// Appends the lanes in `bits` to `out`. after: null where the media stay as they are.
+FASTRT_INLINE void append3(const Compressor& pick, const PathV& v, float* x, float* y, float* z) {
+  pick.store(v.x, x);
+  pick.store(v.y, y);
+  pick.store(v.z, z);
+}
+
+// Appends the new rays to `out`. media: theirs. Whole registers are written, and fit: a child batch holds at
+// most as many rays as its parent has rows before i.
 FASTRT_INLINE void append_rays(const NewRays& rays, const PathBatch& parent, const SurfaceBatch& s,
-                               const KeptColumns& keep, const MediaLanes* after, int i, std::uint32_t bits,
+                               const KeptColumns& keep, const std::int32_t* const (&media)[max_media], int i,
                                PathBatch& out) {
-  int count = out.count;
-  for (; bits != 0; bits &= bits - 1, ++count) {
-    const int lane = __builtin_ctz(bits);
-    out.origin_x[count] = rays.origin[0][lane];
-    out.origin_y[count] = rays.origin[1][lane];
-    out.origin_z[count] = rays.origin[2][lane];
-    out.dir_x[count] = rays.dir[0][lane];
-    out.dir_y[count] = rays.dir[1][lane];
-    out.dir_z[count] = rays.dir[2][lane];
-    out.weight_r[count] = rays.weight[0][lane];
-    out.weight_g[count] = rays.weight[1][lane];
-    out.weight_b[count] = rays.weight[2][lane];
-    out.t_min[count] = 0.0F;
-    out.t_max[count] = __builtin_inff();
-    out.exclude[count] = s.planar[i + lane];
-    out.pixel[count] = parent.pixel[i + lane];
-    if (keep.inner) out.exclude_inner[count] = s.planar_inner[i + lane];
-    if (keep.width) out.width[count] = s.width[i + lane];
-    if (!keep.media) continue;
-    for (int k = 0; k < max_media; ++k)
-      out.media[k][count] = after != nullptr ? after->after[k][lane] : parent.media[k][i + lane];
-  }
-  out.count = count;
+  if (rays.bits == 0) return;
+  const Compressor pick(rays.bits);
+  const int n = out.count;
+  append3(pick, rays.origin, out.origin_x + n, out.origin_y + n, out.origin_z + n);
+  append3(pick, rays.dir, out.dir_x + n, out.dir_y + n, out.dir_z + n);
+  append3(pick, rays.weight, out.weight_r + n, out.weight_g + n, out.weight_b + n);
+  PathF(0.0F).store_unaligned(out.t_min + n);
+  PathF(__builtin_inff()).store_unaligned(out.t_max + n);
+  pick.store(PathI::load_aligned(s.planar + i), out.exclude + n);
+  pick.store(PathI::load_aligned(parent.pixel + i), out.pixel + n);
+  if (keep.inner) pick.store(PathI::load_aligned(s.planar_inner + i), out.exclude_inner + n);
+  if (keep.width) pick.store(PathF::load_aligned(s.width + i), out.width + n);
+  for (int k = 0; keep.media && k < max_media; ++k)
+    pick.store(PathI::load_aligned(media[k]), out.media[k] + n);
+  out.count = n + __builtin_popcount(rays.bits);
 }
 
 // Lanes whose weight is worth a ray.
@@ -148,53 +149,77 @@ FASTRT_INLINE std::uint32_t worth_tracing(const PathV& weight, float min_contrib
   return to_bits((most > PathF(0.0F)) & (most >= PathF(min_contribution)));
 }
 
-// The rays that leave the surfaces of lanes i .. of one material.
+// What leaves the surfaces of one register of rays.
+struct LeavingRays {
+  NewRays reflected, refracted;
+  MediaLanes media;
+};
+
+FASTRT_INLINE void add_rays(const PathM& mask, std::uint32_t bits, const PathV& origin, const PathV& dir,
+                            const PathV& weight, float min_contribution, NewRays& out) {
+  out.origin = select(mask, origin, out.origin);
+  out.dir = select(mask, dir, out.dir);
+  out.weight = select(mask, weight, out.weight);
+  out.bits |= worth_tracing(weight, min_contribution) & bits;
+}
+
+// Adds what leaves the surfaces of one material, lanes `bits` of i .. .
 FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, const SurfaceBatch& s,
-                                 const MaterialRow& row, std::uint32_t bits, int i, PathBatch& reflected,
-                                 PathBatch& refracted) {
-  const KeptColumns keep = kept_columns(job.scene->shading);
-  MediaLanes media{};
-  const bool bends = is_medium(row);
-  if (bends)
+                                 const MaterialRow& row, const PathM& mask, std::uint32_t bits, int i,
+                                 LeavingRays& out) {
+  if (is_medium(row))
     for (std::uint32_t b = bits; b != 0; b &= b - 1) {
       const int lane = __builtin_ctz(b);
-      cross_surface(job.scene->shading, rays, s.material[i + lane], i, lane, media);
+      cross_surface(job.scene->shading, rays, s.material[i + lane], i, lane, out.media);
     }
   const SurfaceAngles angles = surface_angles(s, i);
   const SecondaryLanes lanes =
-      secondary_lanes(row, angles, transmit_of(row, s, i), PathF::load_aligned(media.ior_before),
-                      PathF::load_aligned(media.ior_after));
+      secondary_lanes(row, angles, transmit_of(row, s, i), PathF::load_aligned(out.media.ior_before),
+                      PathF::load_aligned(out.media.ior_after));
   const PathV weight = load3<PathF>(rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
   const PathV point = load_point(s, i);
   const PathF offset = PathF::load_aligned(s.magnitude + i) * PathF(offset_share);
-  NewRays next;
-  const PathV mirror_weight = weight * lanes.mirror_weight;
-  if (const std::uint32_t worth = worth_tracing(mirror_weight, job.min_contribution) & bits; worth != 0) {
-    store_lanes(point + angles.geometric * offset, next.origin);
-    store_lanes(lanes.mirror, next.dir);
-    store_lanes(mirror_weight, next.weight);
-    append_rays(next, rays, s, keep, nullptr, i, worth, reflected);
-  }
-  const PathV transmitted_weight = weight * lanes.transmitted_weight;
-  if (const std::uint32_t worth = worth_tracing(transmitted_weight, job.min_contribution) & bits;
-      worth != 0) {
-    store_lanes(point + angles.geometric * negate(offset), next.origin);
-    store_lanes(lanes.transmitted, next.dir);
-    store_lanes(transmitted_weight, next.weight);
-    append_rays(next, rays, s, keep, bends ? &media : nullptr, i, worth, refracted);
-  }
+  add_rays(mask, bits, point + angles.geometric * offset, lanes.mirror, weight * lanes.mirror_weight,
+           job.min_contribution, out.reflected);
+  if (row.has_transmit == 0) return;
+  add_rays(mask, bits, point + angles.geometric * negate(offset), lanes.transmitted,
+           weight * lanes.transmitted_weight, job.min_contribution, out.refracted);
+}
+
+// Nothing leaves yet; where a surface is not crossed, the media stay as they are.
+FASTRT_INLINE LeavingRays no_rays(const PathBatch& rays, const KeptColumns& keep, int i) {
+  const PathV none = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
+  LeavingRays out;
+  out.reflected = out.refracted = {none, none, none, 0};
+  PathF(1.0F).store_aligned(out.media.ior_before);
+  PathF(1.0F).store_aligned(out.media.ior_after);
+  for (int k = 0; keep.media && k < max_media; ++k)
+    PathI::load_aligned(rays.media[k] + i).store_aligned(out.media.after[k]);
+  return out;
 }
 
 // All rays that leave the surfaces of a batch.
 static void make_secondary_rays(const TileJob& job, const PathBatch& rays, const TileScratch& scratch,
                                 PathBatch& reflected, PathBatch& refracted) noexcept {
   const SurfaceBatch& s = scratch.surface;
-  for (int i = 0; i < rays.count; i += widest)
-    for_each_material(job.scene->shading, s.material + i, hit_bits(rays, scratch.hits, i),
-                      [&](const MaterialRow& row, const PathM&, std::uint32_t bits) {
+  const KeptColumns keep = kept_columns(job.scene->shading);
+  for (int i = 0; i < rays.count; i += widest) {
+    const std::uint32_t hits = hit_bits(rays, scratch.hits, i);
+    if (hits == 0) continue;
+    LeavingRays leaving = no_rays(rays, keep, i);
+    for_each_material(job.scene->shading, s.material + i, hits,
+                      [&](const MaterialRow& row, const PathM& mask, std::uint32_t bits) {
                         if ((row.has_mirror | row.has_transmit) != 0 && row.unlit == 0)
-                          leave_surface(job, rays, s, row, bits, i, reflected, refracted);
+                          leave_surface(job, rays, s, row, mask, bits, i, leaving);
                       });
+    const std::int32_t *before[max_media], *after[max_media];
+    for (int k = 0; k < max_media; ++k) {
+      before[k] = rays.media[k] + i;
+      after[k] = leaving.media.after[k];
+    }
+    append_rays(leaving.reflected, rays, s, keep, before, i, reflected);
+    append_rays(leaving.refracted, rays, s, keep, after, i, refracted);
+  }
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

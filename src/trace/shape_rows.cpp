@@ -106,7 +106,7 @@ const Aabb& box_of(const Scene& scene, std::uint32_t primitive) {
 } // namespace
 
 std::size_t ShapeRows::bytes() const noexcept {
-  return cones.bytes() + disks.bytes() + polygons.bytes() + edges.bytes() + planes.bytes() +
+  return cones.bytes() + disks.bytes() + polygons.bytes() + edges.bytes() + bands.bytes() + planes.bytes() +
          instances.bytes() + materials.bytes() + objects.bytes();
 }
 
@@ -120,6 +120,7 @@ ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& proto
   fill(scene.shapes().polygons, rows.polygons);
   fill(scene.shapes().edges, rows.edges);
   fill(scene.shapes().planes, rows.planes);
+  add_bands(rows);
   const SceneDesc& desc = scene.desc();
   const auto append = [&](const auto& columns) {
     rows.materials.append(columns.material.data(), columns.size());
@@ -138,6 +139,7 @@ ShapeView shape_view(const Scene& scene, const ShapeRows& rows) {
   view.disks = rows.disks.data();
   view.polygons = rows.polygons.data();
   view.edges = rows.edges.data();
+  view.bands = rows.bands.data();
   view.planes = rows.planes.data();
   view.instances = rows.instances.data();
   view.first_cone = static_cast<std::int32_t>(scene.first_of(PrimitiveKind::cone));

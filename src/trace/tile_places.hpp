@@ -22,9 +22,22 @@ FASTRT_INLINE long frame_pixel(const TileJob& job, int place) {
          (picture_x(job, place) - job.x_begin);
 }
 
+FASTRT_INLINE bool is_whole(const TileJob& job) {
+  return job.x + tile_side <= job.x_end && job.y + tile_side <= job.y_end;
+}
+
+FASTRT_INLINE void pick_all_places(TileScratch& scratch) {
+  for (int place = 0; place < batch_size; ++place) scratch.places[place] = place;
+  scratch.place_count = batch_size;
+}
+
 // All places, so that groups of rays stay squares; of a later round of adaptive sampling the active ones.
 // Returns how many of them are in the frame.
 FASTRT_INLINE int pick_places(const TileJob& job, TileScratch& scratch) {
+  if (job.round.active == nullptr && is_whole(job)) {
+    pick_all_places(scratch);
+    return batch_size;
+  }
   scratch.place_count = 0;
   int count = 0;
   for (int place = 0; place < batch_size; ++place) {

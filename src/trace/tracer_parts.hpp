@@ -28,7 +28,8 @@ struct ShapeRows {
   Column<ConeRow> cones;
   Column<DiskRow> disks;
   Column<PolygonRow> polygons;
-  Column<EdgeRow> edges;
+  Column<EdgeRow> edges; // of the polygons, and after them of the bands
+  Column<BandRow> bands;
   Column<PlaneRow> planes;
   Column<InstanceRow> instances;
   Column<std::uint32_t> materials, objects; // of all but instances, by id
@@ -62,6 +63,7 @@ TextureRows texture_rows(const Scene& scene);
 std::vector<LightRow> light_rows(const Scene& scene, std::vector<EmitterRow>& emitters);
 
 ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& prototypes);
+void add_bands(ShapeRows& rows); // of polygons with many edges
 ShapeView shape_view(const Scene& scene, const ShapeRows& rows);
 
 // The leaf blocks in the tree's order. slots: primitive ids, block_size a block, -1 where a block is not

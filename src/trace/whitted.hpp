@@ -11,9 +11,35 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
+// 0, 1, 2 ..
+struct alignas(64) LaneNumbers {
+  std::int32_t lane[widest];
+};
+inline constexpr LaneNumbers lane_numbers = [] {
+  LaneNumbers numbers{};
+  for (int i = 0; i < widest; ++i) numbers.lane[i] = i;
+  return numbers;
+}();
+
+// Whether rays i .. belong to pixels one after the other, as camera rays do.
+FASTRT_INLINE bool are_in_a_row(const PathBatch& rays, int i) {
+  const PathI expected = PathI::load_aligned(lane_numbers.lane) + PathI(rays.pixel[i]);
+  const PathM same = simd::bool_cast(PathI::load_aligned(rays.pixel + i) == expected);
+  return to_bits(same) == (1U << (widest - 1)) * 2U - 1U;
+}
+
 // acc = acc + weight * light, for the lanes in `bits`.
 FASTRT_INLINE void accumulate(const PathBatch& rays, const PathV& weight, const PathV& light,
                               std::uint32_t bits, int i, TileScratch& scratch) {
+  if (are_in_a_row(rays, i)) {
+    const int first = rays.pixel[i];
+    float* const r = scratch.radiance_r + first;
+    float* const g = scratch.radiance_g + first;
+    float* const b = scratch.radiance_b + first;
+    const PathV sum = load3<PathF>(r, g, b);
+    store3(select(from_bits<widest>(bits), sum + weight * light, sum), r, g, b);
+    return;
+  }
   alignas(64) float added[3][widest];
   store_lanes(weight * light, added);
   for (; bits != 0; bits &= bits - 1) {

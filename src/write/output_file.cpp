@@ -125,15 +125,6 @@ int sync(int descriptor) {
   return errno;
 }
 
-// The new name survives a power failure only when its folder was synced; where that can't be done, the file
-// is whole all the same.
-void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 } // namespace
 
 void check_writable(const fs::path& path) {
@@ -155,8 +146,8 @@ void replace_file(const fs::path& path, const unsigned char* bytes, std::size_t 
   if (error != 0) fail(path, error);
   if (target.direct) return;
   if (::rename(file.path().c_str(), target.path.c_str()) != 0) fail(path, errno);
+  // The folder is not synced: after a power failure the place may hold what it held before, whole.
   file.keep();
-  sync_folder(folder_of(target.path));
 }
 
 } // namespace fastrt

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace fastrt {
 
@@ -51,24 +52,40 @@ std::array<std::uint32_t, bucket_count> make_table() {
   return table;
 }
 
+constexpr std::size_t channels = 3;
+constexpr std::size_t block_size = 85 * channels;
+
+void convert(const std::uint32_t* entries, const float* linear, std::size_t count, unsigned char* codes) {
+  std::array<std::uint32_t, block_size> bits; // clamped in a loop of its own, which compilers make SIMD
+  for (std::size_t i = 0; i < count; ++i) {
+    float x = linear[i];
+    x = x > least ? x : least; // NaN too
+    x = x < most ? x : most;
+    bits[i] = std::bit_cast<std::uint32_t>(x);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    codes[i] = static_cast<unsigned char>(
+        (entries[(bits[i] >> shift) - first_bucket] + (bits[i] & 0xFFFFU)) >> shift);
+}
+
+// Whether all pixels are the first one, as in much of a background.
+bool repeats(const float* linear, std::size_t count) {
+  return count > channels && std::memcmp(linear, linear + channels, (count - channels) * sizeof(float)) == 0;
+}
+
 } // namespace
 
 void to_srgb8(const float* linear, std::size_t count, unsigned char* codes) noexcept {
   static const std::array<std::uint32_t, bucket_count> table = make_table();
-  const std::uint32_t* entries = table.data();
-  constexpr std::size_t block_size = 256;
-  std::array<std::uint32_t, block_size> bits; // clamped in a loop of its own, which compilers make SIMD
   for (std::size_t begin = 0; begin < count; begin += block_size) {
     const std::size_t n = std::min(block_size, count - begin);
-    for (std::size_t i = 0; i < n; ++i) {
-      float x = linear[begin + i];
-      x = x > least ? x : least; // NaN too
-      x = x < most ? x : most;
-      bits[i] = std::bit_cast<std::uint32_t>(x);
+    unsigned char* const out = codes + begin;
+    if (repeats(linear + begin, n)) {
+      convert(table.data(), linear + begin, channels, out);
+      for (std::size_t i = channels; i < n; ++i) out[i] = out[i - channels];
+    } else {
+      convert(table.data(), linear + begin, n, out);
     }
-    for (std::size_t i = 0; i < n; ++i)
-      codes[begin + i] = static_cast<unsigned char>(
-          (entries[(bits[i] >> shift) - first_bucket] + (bits[i] & 0xFFFFU)) >> shift);
   }
 }
 

@@ -35,8 +35,8 @@ TEST(BlackFrame, SeesNothing) {
   const Frame frame = black_frame(3, 2);
   EXPECT_EQ(frame.width, 3);
   EXPECT_EQ(frame.height, 2);
-  EXPECT_EQ(frame.rgb, std::vector<float>(18, 0.0F));
-  EXPECT_EQ(frame.primitive, std::vector<std::int32_t>(6, no_primitive));
+  EXPECT_EQ(frame.rgb, Column<float>(18, 0.0F));
+  EXPECT_EQ(frame.primitive, Column<std::int32_t>(6, no_primitive));
   EXPECT_EQ(frame.rays.total(), 0U);
 }
 

@@ -69,6 +69,19 @@ TEST(Srgb, RandomFloats) {
   for (std::size_t i = 0; i < linear.size(); ++i) ASSERT_EQ(codes[i], oracle(linear[i])) << linear[i];
 }
 
+TEST(Srgb, RunsOfOneColour) {
+  std::mt19937 random(11);
+  for (const std::size_t other : {0U, 1U, 2U, 3U, 200U, 254U, 255U, 300U, 1022U}) {
+    std::vector<float> linear(1024, 0.0F);
+    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = 0.1F + 0.3F * static_cast<float>(i % 3);
+    linear[other] = static_cast<float>(random() >> 8U) * 0x1p-24F;
+    std::vector<unsigned char> codes(linear.size());
+    to_srgb8(linear.data(), linear.size(), codes.data());
+    for (std::size_t i = 0; i < linear.size(); ++i)
+      ASSERT_EQ(codes[i], oracle(linear[i])) << other << ' ' << i;
+  }
+}
+
 TEST(Srgb, WhatLiesOutside) {
   const float inf = std::numeric_limits<float>::infinity();
   EXPECT_EQ(code(std::numeric_limits<float>::quiet_NaN()), 0);
