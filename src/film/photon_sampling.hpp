@@ -75,20 +75,45 @@ enum class PhotonTurn : std::uint32_t { reflected = 1, refracted = 2, scattered 
   return {disk.x * scale, disk.y * scale, 1.0F - hr2};
 }
 
+// A place on the unit disk as a direction around the z axis, as likely as its cosine to it.
+[[gnu::always_inline]] static inline LightPlace above_disk(const SampleOffset& disk) {
+  const float left = 1.0F - (disk.x * disk.x + disk.y * disk.y);
+  return {disk.x, disk.y, __builtin_sqrtf(left > 0.0F ? left : 0.0F)};
+}
+
 // A direction around the z axis, as likely as its cosine to it.
 [[gnu::always_inline]] static inline LightPlace cosine_direction(std::uint32_t key) {
   const auto number = [](std::uint32_t bits) {
     return static_cast<float>(static_cast<std::int32_t>(bits >> 8U)) * 0x1p-23F - 1.0F;
   };
-  const SampleOffset disk = disk_point(number(hash32(key + 3U)), number(hash32(key + 4U)));
-  const float left = 1.0F - (disk.x * disk.x + disk.y * disk.y);
-  return {disk.x, disk.y, __builtin_sqrtf(left > 0.0F ? left : 0.0F)};
+  return above_disk(disk_point(number(hash32(key + 3U)), number(hash32(key + 4U))));
 }
 
-// Where on a light with a size photon `index` starts, in units of its half axes.
+// A place on the square as a direction from a matt surface whose normal is the z axis: to either side, which
+// the sign bit of z tells, as likely as the cosine. Each side has half of the square.
+[[gnu::always_inline]] static inline LightPlace matt_direction(const SampleOffset& place) {
+  const float side = place.x < 0.0F ? -1.0F : 1.0F;
+  const LightPlace above = above_disk(disk_point(2.0F * place.x - side, place.y));
+  return {above.x, above.y, side * above.z};
+}
+
+// Who asks a light with a size for the start of photon `index`.
+[[gnu::always_inline]] static inline LightQuestion start_question(std::uint32_t index, std::uint32_t light,
+                                                                  std::uint32_t seed) {
+  return {index, 0x70686F74U, 0, 0, light, seed};
+}
+
+// Where on a light with a size that is no mesh photon `index` starts, in units of its half axes.
 [[gnu::always_inline]] static inline LightPlace photon_start(LightShape shape, std::uint32_t index,
                                                              std::uint32_t light, std::uint32_t seed) {
-  return light_place(shape, {index, 0x70686F74U, 0, 0, light, seed}, 0, 1);
+  return light_place(shape, start_question(index, light, seed), 0, 1);
+}
+
+// Where on a mesh; begin and triangles as in mesh_place().
+[[gnu::always_inline]] static inline MeshPlace photon_mesh_start(const std::uint32_t* begin,
+                                                                 std::uint32_t triangles, std::uint32_t index,
+                                                                 std::uint32_t light, std::uint32_t seed) {
+  return mesh_place(begin, triangles, start_question(index, light, seed), 0, 1);
 }
 
 } // namespace fastrt

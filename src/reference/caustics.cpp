@@ -7,9 +7,9 @@
 
 namespace fastrt::reference {
 
-PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const PhotonPlan& plan,
-                         const std::vector<PhotonChunk>& chunks, const RenderSettings& settings,
-                         FrameProgress& progress) {
+PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+                         const PhotonPlan& plan, const std::vector<PhotonChunk>& chunks,
+                         const RenderSettings& settings, FrameProgress& progress) {
   std::vector<Photon> photons;
   std::mutex mutex;
   const auto keep = [&](const Arrival& arrival, RayCounts&) {
@@ -20,7 +20,7 @@ PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const Phot
     photons.push_back({arrival.surface.point, arrival.surface.geometric_normal, flux, arrival.row,
                        photon.index, photon.key});
   };
-  trace_photons(scene, finder, plan, chunks, settings, false, keep, progress);
+  trace_photons(scene, finder, around, plan, chunks, settings, false, keep, progress);
   return make_photon_map(std::move(photons), plan.count, settings.caustic_radius);
 }
 

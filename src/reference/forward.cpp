@@ -47,7 +47,8 @@ Ray sight_ray(const EyeProjection& eye, const Surface& surface, float z) {
     ray.direction = -eye.direction;
     ray.t_max = z;
   } else {
-    const float offset = offset_for(max(surface.magnitude, largest_magnitude(eye.origin)));
+    const float reached = largest_magnitude(eye.origin) * surface.growth;
+    const float offset = offset_for(max(surface.magnitude, reached));
     ray.origin = eye.origin;
     ray.direction = (surface.point + offset * surface.geometric_normal) - eye.origin;
     ray.t_max = 1.0F;
@@ -66,7 +67,8 @@ void expose(std::int64_t& sum, float light) {
 Frame render_forward(const Scene& scene, const HitFinder& finder, const Camera& camera,
                      const RenderSettings& settings) {
   check(settings);
-  const EyeProjection eye = make_eye_projection(make_camera_frame(camera, settings.width, settings.height));
+  const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
+  const EyeProjection eye = make_eye_projection(camera_frame);
   Frame frame = render(scene, finder, camera, center_settings(settings));
   if (!frame.complete) return frame;
   keep_background(scene.desc().background, frame);
@@ -74,6 +76,7 @@ Frame render_forward(const Scene& scene, const HitFinder& finder, const Camera& 
   const Crop part = part_of(settings);
   const PhotonPlan plan = plan_forward_photons(scene, settings.photons);
   const std::vector<PhotonChunk> chunks = photon_chunks(plan);
+  const Surroundings around = surroundings_of(scene, finder, camera_frame, settings.width, settings.height);
   LightFilm film(frame);
   const auto show = [&](const Arrival& arrival, RayCounts& rays) {
     const Sighting seen = see(eye, part, arrival.surface);
@@ -81,13 +84,14 @@ Frame render_forward(const Scene& scene, const HitFinder& finder, const Camera& 
     ++rays.shadow;
     const Vec3 arrived = arrival.photon.weight * arrival.strength;
     const Vec3 light = ((arrived * arrival.albedo) * arrival.light->flux) * seen.pixels;
-    const Vec3 left = let_through(scene, finder, sight_ray(eye, arrival.surface, seen.z), Media(), true);
+    const Vec3 left =
+        let_through(scene, finder, sight_ray(eye, arrival.surface, seen.z), around.camera, true);
     const int column = static_cast<int>(seen.x) - part.x0, row = static_cast<int>(seen.y) - part.y0;
     std::int64_t* const sums = film.sums() + 3 * (static_cast<std::ptrdiff_t>(row) * frame.width + column);
     for (int c = 0; c < 3; ++c) expose(sums[c], light[c] * left[c]);
   };
   FrameProgress progress(settings, static_cast<int>(chunks.size()));
-  trace_photons(scene, finder, plan, chunks, settings, true, show, progress);
+  trace_photons(scene, finder, around, plan, chunks, settings, true, show, progress);
   const RayCounts centers = frame.rays;
   progress.finish(frame);
   frame.rays += centers;

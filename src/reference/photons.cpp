@@ -5,6 +5,7 @@
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/media.hpp"
 #include "src/reference/shading.hpp"
+#include "src/scene/light_meshes.hpp"
 #include "src/scene/light_numbers.hpp"
 #include "src/scene/threads.hpp"
 
@@ -24,7 +25,33 @@ float spot_profile(const Light& light, const Vec3& direction) {
   return soft * (x > 0.0F ? shared_pow(x, light.exponent) : 0.0F);
 }
 
-PhotonNode emit(const Light& light, const PhotonLight& row, std::uint32_t index, std::uint32_t seed) {
+// A direction of a frame around the unit vector n, which is its z axis.
+Vec3 turned_to(const Vec3& n, const LightPlace& d) {
+  const float sign = std::copysign(1.0F, n.z);
+  const float a = -(1.0F / (sign + n.z));
+  const float b = (n.x * n.y) * a;
+  const Vec3 u{1.0F + (sign * (n.x * n.x)) * a, sign * b, -(sign * n.x)};
+  const Vec3 v{b, sign + (n.y * n.y) * a, -n.y};
+  return (d.x * u + d.y * v) + d.z * n;
+}
+
+// A ray off one of the mesh's triangles, to either side.
+Ray start_on_mesh(const LightMesh& mesh, const PhotonLight& row, const SampleOffset& place,
+                  std::uint32_t index, std::uint32_t seed) {
+  const MeshPlace start = photon_mesh_start(
+      mesh.begin.data(), static_cast<std::uint32_t>(mesh.triangles.size()), index, row.light, seed);
+  const EmitterTriangle& triangle = mesh.triangles[start.triangle];
+  const LightPlace way = matt_direction(place);
+  const Vec3 towards = std::copysign(1.0F, way.z) * triangle.normal;
+  const Vec3 point = (start.a * triangle.a + start.b * triangle.b) + start.c * triangle.c;
+  Ray ray;
+  ray.origin = point + offset_for(mesh.magnitude) * towards;
+  ray.direction = turned_to(triangle.normal, way);
+  return ray;
+}
+
+PhotonNode emit(const Light& light, const LightMesh& mesh, const PhotonLight& row, std::uint32_t index,
+                std::uint32_t seed) {
   PhotonNode photon;
   photon.index = index;
   photon.key = photon_key(index, row.light, seed);
@@ -33,6 +60,10 @@ PhotonNode emit(const Light& light, const PhotonLight& row, std::uint32_t index,
   if (light.kind == LightKind::directional) {
     photon.ray.origin = (row.middle + (place.x * row.half_side) * row.u) + (place.y * row.half_side) * row.v;
     photon.ray.direction = row.w;
+    return photon;
+  }
+  if (light.kind == LightKind::mesh) {
+    photon.ray = start_on_mesh(mesh, row, place, index, seed);
     return photon;
   }
   photon.ray.origin = light.position;
@@ -47,23 +78,14 @@ PhotonNode emit(const Light& light, const PhotonLight& row, std::uint32_t index,
   return photon;
 }
 
-// Light that comes from a point fades as the light does, and not by spreading.
+// Light that comes from a point fades as the light does, and not by spreading. That of meshes spreads as
+// light does.
 float faded_strength(const Light& light, const PhotonNode& photon) {
-  if (photon.scattered || light.kind == LightKind::directional) return photon.strength;
+  const bool of_points = light.kind != LightKind::directional && light.kind != LightKind::mesh;
+  if (photon.scattered || !of_points) return photon.strength;
   const float d = photon.length;
   const float f = 1.0F / (light.constant + d * (light.linear + light.quadratic * d));
   return photon.strength * (f * (d * d));
-}
-
-// Around the normal, as likely as the cosine to it.
-Vec3 scattered_direction(const Vec3& n, std::uint32_t key) {
-  const float sign = std::copysign(1.0F, n.z);
-  const float a = -(1.0F / (sign + n.z));
-  const float b = (n.x * n.y) * a;
-  const Vec3 u{1.0F + (sign * (n.x * n.x)) * a, sign * b, -(sign * n.x)};
-  const Vec3 v{b, sign + (n.y * n.y) * a, -n.y};
-  const LightPlace d = cosine_direction(key);
-  return (d.x * u + d.y * v) + d.z * n;
 }
 
 // The next photon of the way into `direction`, on the side of the surface that `offset` points to.
@@ -83,14 +105,16 @@ PhotonNode child_of(const PhotonNode& parent, const Surface& surface, const Vec3
 // Follows photons of one light.
 class Follower {
 public:
-  Follower(const Scene& scene, const HitFinder& finder, const RenderSettings& settings, bool scatter,
-           const Arrive& arrive, RayCounts& rays)
-      : scene_(scene), finder_(finder), settings_(settings), scatter_(scatter), arrive_(arrive), rays_(rays) {
-  }
+  Follower(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+           const RenderSettings& settings, bool scatter, const Arrive& arrive, RayCounts& rays)
+      : scene_(scene), finder_(finder), around_(around), settings_(settings), scatter_(scatter),
+        arrive_(arrive), rays_(rays) {}
 
   void follow(const PhotonLight& row, std::uint32_t row_index, std::uint32_t index) {
     ++rays_.primary;
-    stack_.push_back(emit(scene_.lights()[row.light], row, index, settings_.seed));
+    stack_.push_back(emit(scene_.lights()[row.light], scene_.light_meshes().lights[row.light], row, index,
+                          settings_.seed));
+    stack_.back().media = around_.lights[row.light];
     while (!stack_.empty()) {
       PhotonNode photon = stack_.back();
       stack_.pop_back();
@@ -135,7 +159,7 @@ private:
     const float offset = offset_for(surface.magnitude);
     const Vec3 scattered_weight = photon.weight * arrival.albedo;
     if (scatter_ && worth_following(scattered_weight)) {
-      const Vec3 direction = scattered_direction(surface.geometric_normal, photon.key);
+      const Vec3 direction = turned_to(surface.geometric_normal, cosine_direction(photon.key));
       PhotonNode child =
           child_of(photon, surface, scattered_weight, direction, offset, PhotonTurn::scattered);
       child.strength = arrival.strength;
@@ -166,6 +190,7 @@ private:
 
   const Scene& scene_;
   const HitFinder& finder_;
+  const Surroundings& around_;
   const RenderSettings& settings_;
   bool scatter_;
   const Arrive& arrive_;
@@ -175,15 +200,16 @@ private:
 
 } // namespace
 
-void trace_photons(const Scene& scene, const HitFinder& finder, const PhotonPlan& plan,
-                   const std::vector<PhotonChunk>& chunks, const RenderSettings& settings, bool scatter,
-                   const Arrive& arrive, FrameProgress& progress) {
+void trace_photons(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+                   const PhotonPlan& plan, const std::vector<PhotonChunk>& chunks,
+                   const RenderSettings& settings, bool scatter, const Arrive& arrive,
+                   FrameProgress& progress) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count(settings.threads))
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     try {
       if (progress.stopped()) continue;
       RayCounts rays;
-      Follower follower(scene, finder, settings, scatter, arrive, rays);
+      Follower follower(scene, finder, around, settings, scatter, arrive, rays);
       for (std::uint32_t index = chunks[i].first; index < chunks[i].last; ++index)
         follower.follow(plan.lights[chunks[i].row], chunks[i].row, index);
       progress.part_done(rays);

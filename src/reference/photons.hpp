@@ -42,15 +42,17 @@ struct Arrival {
 // Called for every arrival, from several threads; adds its own rays.
 using Arrive = std::function<void(const Arrival& arrival, RayCounts& rays)>;
 
-// Follows all photons of the plan. scatter: whether diffuse surfaces send them on.
-void trace_photons(const Scene& scene, const HitFinder& finder, const PhotonPlan& plan,
-                   const std::vector<PhotonChunk>& chunks, const RenderSettings& settings, bool scatter,
-                   const Arrive& arrive, FrameProgress& progress);
+// Follows all photons of the plan. around: what the lights lie in. scatter: whether diffuse surfaces send
+// them on.
+void trace_photons(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+                   const PhotonPlan& plan, const std::vector<PhotonChunk>& chunks,
+                   const RenderSettings& settings, bool scatter, const Arrive& arrive,
+                   FrameProgress& progress);
 
 // The photons of caustics.
-PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const PhotonPlan& plan,
-                         const std::vector<PhotonChunk>& chunks, const RenderSettings& settings,
-                         FrameProgress& progress);
+PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const Surroundings& around,
+                         const PhotonPlan& plan, const std::vector<PhotonChunk>& chunks,
+                         const RenderSettings& settings, FrameProgress& progress);
 
 // What they bring to a surface, before its own colour. Looks at every photon.
 Vec3 caustic_light(const PhotonMap& map, const Surface& surface);

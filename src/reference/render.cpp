@@ -198,7 +198,7 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
                          frame.height * (1 + most_rounds(settings)) + static_cast<int>(chunks.size()));
   PhotonMap caustics;
   if (settings.caustic_photons > 0) {
-    caustics = trace_caustics(scene, finder, plan, chunks, settings, progress);
+    caustics = trace_caustics(scene, finder, job.around, plan, chunks, settings, progress);
     job.caustics = &caustics;
   }
   if (settings.adaptive > 0.0F)

@@ -5,6 +5,7 @@
 #include "src/film/light_film.hpp"
 #include "src/render/photon_pass.hpp"
 #include "src/scene/eye_projection.hpp"
+#include "src/trace/point_media.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,8 @@ EyeView view_of(const EyeProjection& eye, const Crop& part) {
 
 Frame render_forward(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {
   check(settings);
-  const EyeProjection eye = make_eye_projection(make_camera_frame(camera, settings.width, settings.height));
+  const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
+  const EyeProjection eye = make_eye_projection(camera_frame);
   const Tracer::Parts& parts = tracer.parts();
   Frame frame = render(tracer, camera, center_settings(settings));
   if (!frame.complete) return frame;
@@ -54,6 +56,7 @@ Frame render_forward(const Tracer& tracer, const Camera& camera, const RenderSet
   LightFilm film(frame);
   pass.job.film = film.sums();
   pass.job.eye = view_of(eye, part_of(settings));
+  media_around(parts, camera_frame, settings.width, settings.height, pass.job.eye.media);
   FrameProgress progress(settings, static_cast<int>(chunks.size()));
   trace_photons(pass, progress);
   const RayCounts centers = frame.rays;

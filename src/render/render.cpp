@@ -62,19 +62,12 @@ CameraView view_of(const CameraFrame& camera) {
   return view;
 }
 
-// Where camera rays start, of an orthographic camera the middle one.
-Vec3 ray_start(const CameraFrame& camera, int width, int height) {
-  if (!camera.orthographic) return camera.eye;
-  const float px = 0.5F * static_cast<float>(width), py = 0.5F * static_cast<float>(height);
-  return (camera.corner + px * camera.du) + py * camera.dv;
-}
-
 TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const RenderSettings& settings,
                  const Crop& part, Frame& frame) {
   TileJob job{};
   job.scene = &parts.view;
   job.camera = view_of(camera);
-  media_around(parts, ray_start(camera, settings.width, settings.height), job.eye_media);
+  media_around(parts, camera, settings.width, settings.height, job.eye_media);
   const Footprint footprint = camera_footprint(camera, settings.samples_per_pixel);
   job.width = footprint.width;
   job.spread = footprint.spread;

@@ -2,6 +2,7 @@
 #include "src/scene/photon_lights.hpp"
 
 #include "src/film/photon_sampling.hpp"
+#include "src/scene/light_meshes.hpp"
 #include "src/scene/light_numbers.hpp"
 #include "src/scene/photon_targets.hpp"
 
@@ -148,9 +149,17 @@ double plan_point(const Light& light, const PhotonTargets& targets, PhotonLight&
   return 2 * std::numbers::pi * double(row.cap_height);
 }
 
+// A mesh sends photons all around, to both sides. Its points shine as a matt surface does: pi of the
+// radiance leaves a unit of area, of which the Whitted picture shows 1 / pi.
+double plan_mesh(const LightMesh& mesh, const PhotonTargets& targets, PhotonLight& row) {
+  if (targets.balls.empty() && !targets.everywhere) return 0;
+  row.cells = cells_where([](std::uint32_t) { return true; });
+  return 2 * std::numbers::pi * double(mesh.area_over_pi);
+}
+
 // What photons of a light become as its light fades on the way to the middle of the scene.
 double fade_factor(const Scene& scene, const Light& light) {
-  if (light.kind == LightKind::directional) return 1;
+  if (light.kind == LightKind::directional || light.kind == LightKind::mesh) return 1;
   double d = 1;
   if (!scene.bounds().empty()) {
     const PhotonTargets::Ball whole = ball_around(scene.bounds());
@@ -182,11 +191,15 @@ PhotonPlan plan_photons(const Scene& scene, const PhotonTargets& targets, std::i
     if (with_shadows_only && !light.casts_shadows) continue;
     PhotonLight row{};
     row.light = static_cast<std::uint32_t>(i);
-    const double measure = light.kind == LightKind::directional ? plan_parallel(scene, light, targets, row)
-                                                                : plan_point(light, targets, row);
+    const LightMesh& mesh = scene.light_meshes().lights[i];
+    const bool is_mesh = light.kind == LightKind::mesh;
+    const double measure = is_mesh                                ? plan_mesh(mesh, targets, row)
+                           : light.kind == LightKind::directional ? plan_parallel(scene, light, targets, row)
+                                                                  : plan_point(light, targets, row);
     const double sent = measure * static_cast<double>(row.cells.size()) / all_cells;
-    row.flux = light.intensity * static_cast<float>(sent);
-    const float most = std::max(light.intensity.x, std::max(light.intensity.y, light.intensity.z));
+    const Vec3 intensity = is_mesh ? mesh.radiance : light.intensity;
+    row.flux = intensity * static_cast<float>(sent);
+    const float most = std::max(intensity.x, std::max(intensity.y, intensity.z));
     if (!(most > 0.0F) || !(sent > 0.0)) continue;
     power.push_back(double(most) * sent * fade_factor(scene, light));
     plan.lights.push_back(std::move(row));

@@ -13,8 +13,9 @@ namespace fastrt {
 struct PhotonLight {
   std::uint32_t light; // of the scene
   std::uint32_t count; // photons
-  Vec3 u, v, w;        // orthonormal: directions are around w; parallel light travels along w
-  float cap_height;    // of the cap of directions on the unit sphere; 0: parallel light
+  // Of no use to meshes, whose photons go wherever their triangles point.
+  Vec3 u, v, w;     // orthonormal: directions are around w; parallel light travels along w
+  float cap_height; // of the cap of directions on the unit sphere; 0: parallel light
   // Parallel light starts on a square with this middle and half side, along u and v.
   Vec3 middle;
   float half_side;

@@ -12,8 +12,8 @@ namespace {
 
 using DVec3 = glm::dvec3;
 
-// More objects than this are one target.
-constexpr std::size_t most_objects = 1024;
+// More targets than this become one.
+constexpr std::size_t most_balls = 1024;
 
 bool is_specular(const Material& m) {
   if (m.unlit) return false;
@@ -29,6 +29,14 @@ const Aabb& shape_box(const Scene& scene, PrimitiveKind kind, std::uint32_t row)
   return shapes.polygons[row].box;
 }
 
+template <class Use>
+void cover(const Aabb& box, const Use& use) {
+  const DVec3 low(box.lower), high(box.upper);
+  for (int i = 0; i < 8; ++i)
+    use(DVec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z),
+        0.0);
+}
+
 // Calls use(point, radius) for balls that together hold the primitive. It is no plane.
 template <class Use>
 void cover(const Scene& scene, std::uint32_t primitive, const Use& use) {
@@ -41,53 +49,90 @@ void cover(const Scene& scene, std::uint32_t primitive, const Use& use) {
     const SphereColumns& s = scene.spheres();
     use(DVec3(s.x[row], s.y[row], s.z[row]), static_cast<double>(s.radius[row]));
   } else {
-    const Aabb& box = shape_box(scene, kind, row);
-    const DVec3 low(box.lower), high(box.upper);
-    for (int i = 0; i < 8; ++i)
-      use(DVec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z),
-          0.0);
+    cover(shape_box(scene, kind, row), use);
   }
 }
 
-// Balls around the boxes of objects, grown until they hold every primitive that `wanted` lets in.
+// Which of the scene's things reflect or bend light.
+class Speculars {
+public:
+  explicit Speculars(const Scene& scene) : scene_(scene) {
+    for (const Material& material : scene.materials()) materials_.push_back(is_specular(material));
+    for (const Prototype& prototype : scene.desc().prototypes) prototypes_.push_back(has_some(prototype));
+  }
+
+  bool primitive(std::uint32_t id) const { return materials_[scene_.material_of(id)]; }
+  // Some of it is enough.
+  bool instance(std::size_t index) const {
+    const InstanceColumns& instances = scene_.desc().instances;
+    const std::uint32_t own = instances.material[index];
+    return own != no_index ? materials_[own] : prototypes_[instances.prototype[index]];
+  }
+
+private:
+  bool has_some(const Prototype& prototype) const {
+    for (std::size_t kind = 0; kind < prototype.begin.size(); ++kind) {
+      const std::uint32_t first = scene_.first_of(static_cast<PrimitiveKind>(kind));
+      for (std::uint32_t row = prototype.begin[kind]; row < prototype.end[kind]; ++row)
+        if (primitive(first + row)) return true;
+    }
+    return false;
+  }
+
+  const Scene& scene_;
+  std::vector<bool> materials_, prototypes_;
+};
+
+// Balls around the boxes of objects and of instances, grown until they hold all that is specular.
 class BallMaker {
 public:
   explicit BallMaker(const Scene& scene)
-      : scene_(scene), objects_(std::max<std::size_t>(scene.desc().object_names.size(), 1)) {
-    if (objects_ > most_objects) objects_ = 1;
-    low_.assign(objects_, DVec3(INFINITY));
-    high_.assign(objects_, DVec3(-INFINITY));
-    radius_.assign(objects_, 0.0);
+      : scene_(scene), speculars_(scene),
+        objects_(std::max<std::size_t>(scene.desc().object_names.size(), 1)) {
+    const std::size_t count = objects_ + scene.instance_count();
+    low_.assign(count, DVec3(INFINITY));
+    high_.assign(count, DVec3(-INFINITY));
+    radius_.assign(count, 0.0);
   }
 
-  template <class Wanted>
-  std::vector<PhotonTargets::Ball> make(const Wanted& wanted) {
-    each(wanted, [&](std::size_t object, const DVec3& point, double radius) {
-      low_[object] = glm::min(low_[object], point - radius);
-      high_[object] = glm::max(high_[object], point + radius);
+  std::vector<PhotonTargets::Ball> make() {
+    each([&](std::size_t thing, const DVec3& point, double radius) {
+      low_[thing] = glm::min(low_[thing], point - radius);
+      high_[thing] = glm::max(high_[thing], point + radius);
     });
-    each(wanted, [&](std::size_t object, const DVec3& point, double radius) {
-      radius_[object] = std::max(radius_[object], glm::length(point - middle(object)) + radius);
+    each([&](std::size_t thing, const DVec3& point, double radius) {
+      radius_[thing] = std::max(radius_[thing], glm::length(point - middle(thing)) + radius);
     });
     std::vector<PhotonTargets::Ball> balls;
-    for (std::size_t i = 0; i < objects_; ++i)
+    for (std::size_t i = 0; i < low_.size(); ++i)
       if (low_[i].x <= high_[i].x) balls.push_back({middle(i), radius_[i]});
     return balls;
   }
 
 private:
-  DVec3 middle(std::size_t object) const { return 0.5 * (low_[object] + high_[object]); }
+  DVec3 middle(std::size_t thing) const { return 0.5 * (low_[thing] + high_[thing]); }
 
-  template <class Wanted, class Use>
-  void each(const Wanted& wanted, const Use& use) const {
-    for (std::uint32_t id = 0; id < scene_.first_of(PrimitiveKind::plane); ++id) {
-      if (!wanted(id)) continue;
-      const std::size_t object = objects_ == 1 ? 0 : scene_.object_of(id);
-      cover(scene_, id, [&](const DVec3& point, double radius) { use(object, point, radius); });
+  // Calls use(thing, point, radius). Prototypes are where instances show them alone.
+  template <class Use>
+  void each(const Use& use) const {
+    const KindRanges& world = scene_.shapes().world;
+    for (std::size_t kind = 0; kind < world.size(); ++kind) {
+      const std::uint32_t first = scene_.first_of(static_cast<PrimitiveKind>(kind));
+      for (const RowRange& rows : world[kind])
+        for (std::uint32_t id = first + rows.begin; id < first + rows.end; ++id) {
+          if (!speculars_.primitive(id)) continue;
+          const std::size_t object = scene_.object_of(id);
+          cover(scene_, id, [&](const DVec3& point, double radius) { use(object, point, radius); });
+        }
     }
+    const std::vector<InstanceShape>& instances = scene_.shapes().instances;
+    for (std::size_t i = 0; i < instances.size(); ++i)
+      if (!instances[i].box.empty() && speculars_.instance(i))
+        cover(instances[i].box, [&](const DVec3& point, double radius) { use(objects_ + i, point, radius); });
   }
 
   const Scene& scene_;
+  Speculars speculars_;
   std::size_t objects_;
   std::vector<DVec3> low_, high_;
   std::vector<double> radius_;
@@ -122,10 +167,10 @@ PhotonTargets whole_scene(const Scene& scene) {
 
 PhotonTargets specular_objects(const Scene& scene) {
   PhotonTargets targets;
-  const auto wanted = [&](std::uint32_t id) { return is_specular(scene.materials()[scene.material_of(id)]); };
   for (std::uint32_t id = scene.first_of(PrimitiveKind::plane); id < scene.primitive_count(); ++id)
-    if (wanted(id)) targets.everywhere = true;
-  targets.balls = BallMaker(scene).make(wanted);
+    if (is_specular(scene.materials()[scene.material_of(id)])) targets.everywhere = true;
+  targets.balls = BallMaker(scene).make();
+  if (targets.balls.size() > most_balls) targets.balls = {ball_around(targets)};
   return targets;
 }
 

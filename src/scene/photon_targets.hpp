@@ -23,7 +23,7 @@ PhotonTargets::Ball ball_around(const PhotonTargets& targets);
 
 PhotonTargets whole_scene(const Scene& scene);
 
-// Whatever reflects light or bends it, object by object.
+// Whatever reflects light or bends it, object by object and instance by instance.
 PhotonTargets specular_objects(const Scene& scene);
 
 } // namespace fastrt

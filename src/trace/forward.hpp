@@ -48,10 +48,12 @@ struct SightBatch {
 };
 
 // A ray between the eye and surface i, as the eye's own rays go; parallel ones the other way round.
-FASTRT_INLINE void add_sight_ray(const EyeView& eye, const SurfaceBatch& s, int i, float z, RayBatch& rays) {
+// instances: whether the scene has any.
+FASTRT_INLINE void add_sight_ray(const EyeView& eye, const SurfaceBatch& s, bool instances, int i, float z,
+                                 RayBatch& rays) {
   const float magnitude = s.magnitude[i];
-  const float size =
-      eye.orthographic || magnitude > eye.largest_coordinate ? magnitude : eye.largest_coordinate;
+  const float reached = instances ? eye.largest_coordinate * s.growth[i] : eye.largest_coordinate;
+  const float size = eye.orthographic || magnitude > reached ? magnitude : reached;
   const float offset = size * offset_share;
   const float end[3] = {s.point_x[i] + s.geometric_x[i] * offset, s.point_y[i] + s.geometric_y[i] * offset,
                         s.point_z[i] + s.geometric_z[i] * offset};
@@ -64,7 +66,7 @@ FASTRT_INLINE void add_sight_ray(const EyeView& eye, const SurfaceBatch& s, int 
   rays.t_min[rays.count] = 0.0F;
   rays.t_max[rays.count] = eye.orthographic ? z : 1.0F;
   rays.exclude[rays.count] = s.planar[i];
-  rays.exclude_inner[rays.count] = s.planar_inner[i];
+  if (instances) rays.exclude_inner[rays.count] = s.planar_inner[i];
   ++rays.count;
 }
 
@@ -72,6 +74,7 @@ static void aim_at_eye(const PhotonJob& job, const PhotonBatch& rays, const Arri
                        TileScratch& scratch, SightBatch& sight) noexcept {
   const EyeView& eye = job.eye;
   const SurfaceBatch& s = scratch.surface;
+  const bool instances = job.scene->shading.shapes.instance_count != 0;
   scratch.shadow.count = 0;
   for (int i = 0; i < rays.count; i += widest) {
     if (arrival.lit[i / widest] == 0) continue;
@@ -92,7 +95,7 @@ static void aim_at_eye(const PhotonJob& job, const PhotonBatch& rays, const Arri
       const long column = static_cast<int>(x[lane]) - eye.x_begin,
                  row = static_cast<int>(y[lane]) - eye.y_begin;
       sight.sum[k] = 3 * (row * (eye.x_end - eye.x_begin) + column);
-      add_sight_ray(eye, s, i + lane, z[lane], scratch.shadow);
+      add_sight_ray(eye, s, instances, i + lane, z[lane], scratch.shadow);
     }
   }
 }
@@ -101,6 +104,18 @@ FASTRT_INLINE void expose(std::int64_t* sum, float light) {
   if (!(light > 0.0F)) return;
   const float most = light < film_most ? light : film_most;
   __atomic_fetch_add(sum, static_cast<std::int64_t>(most * film_scale), __ATOMIC_RELAXED);
+}
+
+// In scenes that absorb: what is left of the light where the eye is in a medium. Bodies block the way, so
+// that the medium stays the same.
+FASTRT_INLINE void fade_towards_eye(const PhotonJob& job, TileScratch& scratch) {
+  const int count = scratch.shadow.count;
+  std::uint32_t alive[batch_size / widest];
+  for (int i = 0; i < count; i += widest) {
+    alive[i / widest] = count - i >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << (count - i)) - 1U;
+    for (int k = 0; k < max_media; ++k) PathI(job.eye.media[k]).store_aligned(scratch.shadow_media[k] + i);
+  }
+  trace_fading_shadows(*job.scene, false, alive, scratch);
 }
 
 // Collects what the eye sees of the batch's surfaces. Returns the number of rays to the eye.
@@ -114,7 +129,9 @@ static std::uint64_t connect_to_eye(const PhotonJob& job, const PhotonBatch& ray
                  : job.eye.orthographic ? BatchShape::parallel
                                         : BatchShape::common_origin;
   LightBatch& left = scratch.light;
-  if (job.scene->shading.has_transmission != 0)
+  if (job.scene->shading.has_absorption != 0)
+    fade_towards_eye(job, scratch);
+  else if (job.scene->shading.has_transmission != 0)
     trace_coloured_shadows(*job.scene, shadow, scratch.shadow_hits, left);
   else
     trace_opaque_shadows(job.scene->geometry, shadow, scratch.shadow_hits, left);

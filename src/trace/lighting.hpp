@@ -195,7 +195,8 @@ static std::uint64_t gather_one_light(const TileJob& job, const PathBatch& rays,
     if (scene.shading.has_absorption != 0) {
       std::uint32_t alive[batch_size / widest];
       for (int i = 0; i < rays.count; i += widest) alive[i / widest] = lit[i / widest];
-      trace_fading_shadows(scene, light, rays, alive, scratch);
+      begin_shadow_media(light, rays, scratch);
+      trace_fading_shadows(scene, light.directional != 0, alive, scratch);
     } else if (scene.shading.has_transmission != 0)
       trace_coloured_shadows(scene, scratch.shadow, scratch.shadow_hits, seen);
     else

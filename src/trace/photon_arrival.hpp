@@ -15,10 +15,11 @@ struct ArrivalBatch {
 };
 
 // strength * (f(D) * D^2) for light that comes from a point and has not been scattered: so that it fades as
-// the light does, and not by spreading.
+// the light does, and not by spreading; a mesh's spreads as light does.
 FASTRT_INLINE PathF faded_strength(const LightRow& light, const PhotonBatch& rays, int i) {
   const PathF strength = PathF::load_aligned(rays.strength + i);
-  if (rays.scattered || light.directional != 0) return strength;
+  if (rays.scattered || light.directional != 0 || light.shape == static_cast<std::uint32_t>(LightShape::mesh))
+    return strength;
   const PathF d = PathF::load_aligned(rays.length + i);
   const PathF f =
       PathF(1.0F) / (PathF(light.constant) + d * (PathF(light.linear) + PathF(light.quadratic) * d));

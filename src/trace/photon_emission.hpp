@@ -4,8 +4,8 @@
 
 #include "src/film/photon_sampling.hpp"
 #include "src/simd/shared_math.hpp"
+#include "src/trace/lighting.hpp"
 #include "src/trace/photon_job.hpp"
-#include "src/trace/surface_lanes.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -55,6 +55,30 @@ FASTRT_INLINE void start_at_point(const PhotonJob& job, const LightRow& light, c
   rays.strength[i] = light.spot != 0 ? spot_profile(light, cosine) : 1.0F;
 }
 
+// Off one of a mesh's triangles, to either side.
+FASTRT_INLINE void start_on_mesh(const PhotonJob& job, const LightRow& light, const SampleOffset& place,
+                                 int i, PhotonBatch& rays) {
+  const MeshPlace start = photon_mesh_start(light.emitter_begin, light.emitter_count, rays.index[i],
+                                            job.emission.light, job.seed);
+  const EmitterRow& triangle = light.emitters[start.triangle];
+  const float* const n = triangle.normal;
+  const LightPlace way = matt_direction(place);
+  const float side = __builtin_copysignf(1.0F, way.z), offset = light.largest_coordinate * offset_share;
+  const float sign = __builtin_copysignf(1.0F, n[2]);
+  const float a = -(1.0F / (sign + n[2])), b = (n[0] * n[1]) * a;
+  const float u[3] = {1.0F + (sign * (n[0] * n[0])) * a, sign * b, -(sign * n[0])};
+  const float v[3] = {b, sign + (n[1] * n[1]) * a, -n[1]};
+  float* const origins[3] = {rays.origin_x, rays.origin_y, rays.origin_z};
+  float* const directions[3] = {rays.dir_x, rays.dir_y, rays.dir_z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float point = (triangle.corners[0][axis] * start.a + triangle.corners[1][axis] * start.b) +
+                        triangle.corners[2][axis] * start.c;
+    origins[axis][i] = point + (side * n[axis]) * offset;
+    directions[axis][i] = (u[axis] * way.x + v[axis] * way.y) + n[axis] * way.z;
+  }
+  rays.strength[i] = 1.0F;
+}
+
 // Photons first .. first + count - 1 of the job's light.
 static void emit_photons(const PhotonJob& job, std::uint32_t first, int count, PhotonBatch& rays) noexcept {
   const EmissionView& from = job.emission;
@@ -66,6 +90,8 @@ static void emit_photons(const PhotonJob& job, std::uint32_t first, int count, P
         photon_place(rays.index[i], from.count, from.cells, from.cell_count, rays.key[i]);
     if (light.directional != 0)
       start_parallel(from, place, i, rays);
+    else if (light.shape == static_cast<std::uint32_t>(LightShape::mesh))
+      start_on_mesh(job, light, place, i, rays);
     else
       start_at_point(job, light, place, i, rays);
     rays.t_min[i] = 0.0F;
@@ -75,14 +101,12 @@ static void emit_photons(const PhotonJob& job, std::uint32_t first, int count, P
     rays.width[i] = 0.0F;
     rays.length[i] = 0.0F;
     rays.bent[i] = 0;
-    for (auto& medium : rays.media) medium[i] = -1;
+    for (int k = 0; k < max_media; ++k) rays.media[k][i] = light.media[k];
   }
   rays.count = count;
   rays.depth = 0;
   rays.scattered = false;
-  rays.shape = light.directional != 0 ? BatchShape::parallel
-               : light.shape != 0     ? BatchShape::coherent
-                                      : BatchShape::common_origin;
+  rays.shape = shadow_shape(light, 0); // as shadow rays that come from it
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

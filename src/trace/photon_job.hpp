@@ -32,7 +32,8 @@ struct EmissionView {
 struct EyeView {
   float origin[3], u[3], v[3], w[3], direction[3];
   float inverse_area;
-  float largest_coordinate; // of the origin
+  float largest_coordinate;      // of the origin
+  std::int32_t media[max_media]; // that the eye is in, innermost first
   bool orthographic;
   int x_begin, y_begin, x_end, y_end;
 };

@@ -94,6 +94,13 @@ void media_around(const Tracer::Parts& parts, const Vec3& point, std::int32_t (&
     std::copy(b.begin(), b.end(), media);
 }
 
+void media_around(const Tracer::Parts& parts, const CameraFrame& camera, int width, int height,
+                  std::int32_t (&media)[max_media]) {
+  const float px = 0.5F * static_cast<float>(width), py = 0.5F * static_cast<float>(height);
+  const Vec3 middle = (camera.corner + px * camera.du) + py * camera.dv;
+  media_around(parts, camera.orthographic ? middle : camera.eye, media);
+}
+
 void place_lights_in_media(Tracer::Parts& parts) {
   for (LightRow& row : parts.lights) {
     std::fill(std::begin(row.media), std::end(row.media), -1);

@@ -65,11 +65,11 @@ FASTRT_INLINE std::uint32_t pass_surfaces(const ShadingView& scene, std::uint32_
   return going_on;
 }
 
-// lit: the rays that there are, a word per packet. Ends with all of them at 0.
-static void trace_fading_shadows(const SceneView& scene, const LightRow& light, const PathBatch& paths,
-                                 std::uint32_t* lit, TileScratch& scratch) noexcept {
+// Of scratch.shadow, in scratch.shadow_media. endless: whether the rays have no end. lit: those that there
+// are, a word per packet. Ends with all of them at 0.
+static void trace_fading_shadows(const SceneView& scene, bool endless, std::uint32_t* lit,
+                                 TileScratch& scratch) noexcept {
   RayBatch& rays = scratch.shadow;
-  begin_shadow_media(light, paths, scratch);
   for (int i = 0; i < rays.count; i += widest)
     store_visibility(broadcast3<PathF>(1.0F, 1.0F, 1.0F), i, scratch.light);
   bool any_left = true;
@@ -81,7 +81,7 @@ static void trace_fading_shadows(const SceneView& scene, const LightRow& light, 
       if (bits == 0) continue;
       const std::uint32_t hit =
           to_bits(simd::bool_cast(PathI::load_aligned(scratch.shadow_hits.primitive + i) >= PathI(0))) & bits;
-      fade_stretch(scene.shading, scratch, light.directional != 0 ? hit : bits, i, scratch.light);
+      fade_stretch(scene.shading, scratch, endless ? hit : bits, i, scratch.light);
       const std::uint32_t going_on = pass_surfaces(scene.shading, hit, i, scratch);
       for (std::uint32_t done = bits & ~going_on; done != 0; done &= done - 1) {
         const int ray = i + __builtin_ctz(done);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forward pictures and caustics at random, of every ISA and number of threads against the naive reference:
 // every bit, every AOV, every count.
-#include "tests/equivalence/random_shots.hpp"
+#include "tests/equivalence/random_media.hpp"
+#include "tests/unit/instance_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace {
 
 Light any_lamp(Random& random) {
   Light light = any_light(random);
-  light.kind = static_cast<LightKind>(random.below(6));
+  light.kind = static_cast<LightKind>(random.below(7));
   light.casts_shadows = random.below(4) != 0;
   light.intensity = Vec3(0.2F) + any_colour(random, 1);
   if (random.below(2) == 0) light.constant = random.uniform(), light.quadratic = random.uniform(0.01F, 0.3F);
@@ -35,8 +36,45 @@ void add_things(SceneBuilder& builder, std::uint32_t materials, Random& random) 
   if (random.below(4) == 0) add_any_plane(builder, random.below(materials), random);
 }
 
+// What lights that are meshes are made of: two triangles, or a ball of 20 or 80. Returns its material.
+std::uint32_t add_shining(SceneBuilder& builder, Random& random) {
+  Material shining = any_material(random);
+  shining.emission = {random.uniform(0.1F, 3), random.uniform(), 0};
+  const std::uint32_t material = builder.add_material(shining);
+  if (random.below(2) == 0)
+    add(builder, grid(1, 2.0F * random.in_cube(), random.direction(), random.direction()), material);
+  else
+    add_ball(builder, material, random);
+  return material;
+}
+
+// What is special about a scene.
+enum class Theme { none, instances, media };
+
+// Prototypes of anything, some of them shown with another material.
+void add_instances(SceneBuilder& builder, std::uint32_t materials, Random& random) {
+  const std::uint32_t prototypes = 1 + random.below(3);
+  for (std::uint32_t i = 0; i < prototypes; ++i)
+    add_prototype(builder, random.word(), random.below(materials), random);
+  for (std::uint32_t i = 2 + random.below(4); i != 0; --i)
+    builder.add_instance(random.below(prototypes),
+                         any_map(1.2F * random.in_cube(), random.uniform(0.5F, 1.2F), 0.7F, random),
+                         random.below(2) == 0 ? random.below(materials) : no_index);
+}
+
+// Two media around the middle, where the lamps and the eye are.
+void add_media(SceneBuilder& builder, Random& random) {
+  for (int i = 0; i < 2; ++i) {
+    const std::uint32_t medium = builder.add_material(any_medium(random));
+    if (random.below(2) == 0)
+      add_tank(builder, medium, random);
+    else
+      builder.add_sphere(0.7F * random.in_cube(), random.uniform(0.5F, 4), medium);
+  }
+}
+
 // Material 0 is diffuse, so that photons leave something.
-Scene photon_scene(Random& random) {
+Scene photon_scene(Random& random, Theme theme) {
   SceneBuilder builder;
   Material floor;
   floor.diffuse = Vec3(0.1F) + any_colour(random, 0.8F);
@@ -44,19 +82,33 @@ Scene photon_scene(Random& random) {
   const std::uint32_t materials = 2 + random.below(4);
   for (std::uint32_t i = 1; i < materials; ++i) builder.add_material(any_material(random));
   add_things(builder, materials, random);
-  for (std::uint32_t i = 1 + random.below(3); i != 0; --i) builder.add_light(any_lamp(random));
+  if (theme == Theme::instances) add_instances(builder, materials, random);
+  if (theme == Theme::media) add_media(builder, random);
+  const std::uint32_t shining = add_shining(builder, random);
+  for (std::uint32_t i = 1 + random.below(3); i != 0; --i) {
+    Light lamp = any_lamp(random);
+    lamp.material = shining;
+    if (theme == Theme::media) lamp.position *= 0.3F;
+    builder.add_light(lamp);
+  }
   builder.set_background(any_colour(random, 0.2F));
   return builder.build();
 }
 
-Shot photon_shot(std::uint32_t seed, Integrator integrator) {
+Shot photon_shot(std::uint32_t seed, Integrator integrator, Theme theme = Theme::none) {
   Random random(seed);
-  Shot shot{"photons " + std::to_string(seed), photon_scene(random), {}, {}};
-  shot.camera =
-      looking(random.uniform(2, 6) * random.direction(), 0.5F * random.in_cube(), random.uniform(30, 90));
+  Shot shot{"photons " + std::to_string(seed), photon_scene(random, theme), {}, {}};
+  const float distance = random.uniform(2, 6);
+  shot.camera = looking((theme == Theme::media ? 0.5F * distance : distance) * random.direction(),
+                        0.5F * random.in_cube(), random.uniform(30, 90));
   if (random.below(3) == 0) {
     shot.camera.projection = Projection::orthographic;
     shot.camera.view_height = random.uniform(1, 6);
+  }
+  // So far away that the offsets of the rays to the eye are as large as what they show.
+  if (theme == Theme::instances && random.below(2) == 0) {
+    shot.camera.eye *= 10000.0F;
+    shot.camera.fov_degrees *= 1e-4F;
   }
   shot.settings = small_settings(21, 13);
   shot.settings.integrator = integrator;
@@ -106,6 +158,23 @@ TEST_P(PhotonFrames, CausticsAreTheReferences) {
   }
   EXPECT_GT(different, slow_build ? -1 : 0);
 }
+
+// Both integrators in scenes of a theme.
+void expect_references(std::uint32_t seed, Theme theme) {
+  double light = 0;
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(effort(6)); ++i) {
+    const Integrator integrator = i % 2 == 0 ? Integrator::forward : Integrator::whitted;
+    const Shot shot = photon_shot(1000 + 100 * seed + i, integrator, theme);
+    const Frame expected = render_reference(shot.scene, shot.camera, shot.settings);
+    if (integrator == Integrator::forward) light += brightness(expected);
+    expect_every_isa_makes(expected, shot, {2});
+  }
+  EXPECT_GT(light, slow_build ? -1.0 : 0.0);
+}
+
+TEST_P(PhotonFrames, OfInstancesAreTheReferences) { expect_references(GetParam(), Theme::instances); }
+
+TEST_P(PhotonFrames, InMediaAreTheReferences) { expect_references(GetParam(), Theme::media); }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PhotonFrames, testing::Range(0U, 5U));
 

@@ -49,17 +49,62 @@ RenderSettings settings_for_optics() {
   return settings;
 }
 
-// Light along the floor meets a mirror at 45 degrees and falls straight down.
-TEST_P(CausticPictures, Mirror) {
+// Light along the floor meets a mirror at 45 degrees and falls straight down. shown: whether the mirror is
+// an instance of something that is none.
+Scene mirror_over_floor(bool shown) {
   SceneBuilder builder;
   builder.add_light(beam({-1, 0, 0}));
   add_quad(builder, {-0.5F, 0, -0.5F}, {1, 0, 0}, {0, 0, 1}, builder.add_material(dark_matt()));
-  add_quad(builder, {-0.5F, 1.5F, -0.5F}, {1, 1, 0}, {0, 0, 1}, builder.add_material(mirror(0.75F)));
-  const Scene scene = builder.build();
+  const std::uint32_t shining = builder.add_material(mirror(0.75F));
+  if (!shown) {
+    add_quad(builder, {-0.5F, 1.5F, -0.5F}, {1, 1, 0}, {0, 0, 1}, shining);
+    return builder.build();
+  }
+  const std::uint32_t dark = builder.add_material(black());
+  builder.begin_prototype();
+  add_quad(builder, {0, 0, 0}, {0, 2, 0}, {2, 0, 0}, dark);
+  builder.add_instance(builder.end_prototype(),
+                       {{0, 0, 0.5F}, {0.5F, 0.5F, 0}, {1, -1, 0}, {-0.5F, 1.5F, -0.5F}}, shining);
+  return builder.build();
+}
+
+TEST_P(CausticPictures, Mirror) {
   const Camera camera{{2.5F, 1, 0}, {0, 0, 0}, {0, 1, 0}, 10};
+  for (const bool shown : {false, true})
+    for (const bool forward : {true, false}) {
+      const Frame frame = by_photons(mirror_over_floor(shown), camera, settings_for_optics(), forward,
+                                     forward ? 150000 : 20000);
+      EXPECT_NEAR(light_in_the_middle(frame), 0.75, 0.02) << forward << shown;
+    }
+}
+
+// A lamp that is a mesh, beside a mirror at x = 0.5 or beside its own image.
+Scene lamp_and_image(bool mirrored) {
+  SceneBuilder builder;
+  Light light;
+  light.kind = LightKind::mesh;
+  light.material = builder.add_material(glowing(Vec3(2.0F)));
+  builder.add_light(light);
+  add_quad(builder, {-0.5F, 0, -0.5F}, {1, 0, 0}, {0, 0, 1}, builder.add_material(dark_matt()));
+  add_quad(builder, {-0.8F, 0.6F, -0.2F}, {0.2F, 0.3F, 0}, {0, 0, 0.4F}, light.material);
+  if (mirrored)
+    add_quad(builder, {0.5F, 0, -2}, {0, 3, 0}, {0, 0, 4}, builder.add_material(mirror(1)));
+  else
+    add_quad(builder, {1.8F, 0.6F, -0.2F}, {-0.2F, 0.3F, 0}, {0, 0, 0.4F}, light.material);
+  return builder.build();
+}
+
+// The image lights the floor as a lamp does that stands there.
+TEST_P(CausticPictures, LampInAMirror) {
+  Camera camera{{0, 2, 0}, {0, 0, 0}, {0, 0, -1}};
+  camera.projection = Projection::orthographic;
+  camera.view_height = 0.8F;
+  RenderSettings settings = settings_for_optics();
+  settings.light_samples = 64;
+  const double expected = light_in_the_middle(GetParam().render(lamp_and_image(false), camera, settings));
   for (const bool forward : {true, false}) {
-    const Frame frame = by_photons(scene, camera, settings_for_optics(), forward, forward ? 150000 : 20000);
-    EXPECT_NEAR(light_in_the_middle(frame), 0.75, 0.02) << forward;
+    const Frame frame = by_photons(lamp_and_image(true), camera, settings, forward, 200000);
+    EXPECT_NEAR(light_in_the_middle(frame), expected, 0.03 * expected) << forward;
   }
 }
 
@@ -96,6 +141,33 @@ TEST_P(CausticPictures, LightIsNotCountedTwice) {
     const Camera camera{{2, 0.8F, 0}, {0, 0, 0}, {0, 1, 0}, 18};
     const Frame frame = by_photons(scene, camera, settings_for_optics(), false, 20000);
     EXPECT_NEAR(light_in_the_middle(frame), 0.5, 0.01) << thin;
+  }
+}
+
+// A lamp 1 below the face of a medium: on a ceiling 1 above it, light that spreads by angles of a in the
+// medium and of 1.5 a above it is (1 + 1.5)^2 / (1 + 1)^2 thinner. The medium takes its part of the way in
+// it.
+TEST_P(CausticPictures, LampInAMedium) {
+  SceneBuilder builder;
+  Light light;
+  light.kind = LightKind::spot;
+  light.position = Vec3(0.0F);
+  light.direction = {0, 1, 0};
+  light.cone_degrees = 12;
+  light.penumbra_degrees = 0;
+  builder.add_light(light);
+  Material medium = clear(1.5F);
+  medium.absorption = Vec3(0.3F);
+  add_box(builder, {-3, -3, -3}, {3, 1, 3}, builder.add_material(medium));
+  builder.add_disk({0, 2, 0}, {0, 1, 0}, 0.4F, builder.add_material(dark_matt()));
+  const Scene scene = builder.build();
+  Camera camera{{0, 1.5F, 0}, {0, 2, 0}, {0, 0, -1}};
+  camera.projection = Projection::orthographic;
+  camera.view_height = 0.4F;
+  const double expected = std::exp(-0.3) / (1.25 * 1.25);
+  for (const bool forward : {true, false}) {
+    const Frame frame = by_photons(scene, camera, settings_for_optics(), forward, 60000);
+    EXPECT_NEAR(light_in_the_middle(frame), expected, 0.03 * expected) << forward;
   }
 }
 

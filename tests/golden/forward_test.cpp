@@ -39,15 +39,24 @@ Light lamp(LightKind kind) {
   return light;
 }
 
+// A lamp of two triangles over the floor, outside of the picture, that shines to both sides.
+void add_mesh_lamp(SceneBuilder& builder, Light& light) {
+  Material shining = black();
+  shining.emission = {0.25F, 2, 1};
+  light.material = builder.add_material(shining);
+  add_quad(builder, {0.8F, 1.6F, -0.3F}, {0.4F, -0.4F, 0}, {0, 0, 0.6F}, light.material);
+}
+
 // Light that comes straight is the Whitted picture's, whatever the light and however it fades.
 TEST_P(Forward, DirectLightIsWhitteds) {
   const Camera camera{{0, 3, 0.01F}, {0, 0, 0}, {0, 0, -1}, 30};
   for (const LightKind kind : {LightKind::point, LightKind::directional, LightKind::spot,
-                               LightKind::rectangle, LightKind::disk, LightKind::sphere})
+                               LightKind::rectangle, LightKind::disk, LightKind::sphere, LightKind::mesh})
     for (const bool fades : {false, true}) {
       Light light = lamp(kind);
       if (fades) light.constant = 0.5F, light.linear = 0.3F, light.quadratic = 0.2F;
       SceneBuilder builder;
+      if (kind == LightKind::mesh) add_mesh_lamp(builder, light);
       builder.add_light(light);
       add_quad(builder, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, builder.add_material(matt(0.5F)));
       const Scene scene = builder.build();
@@ -60,6 +69,38 @@ TEST_P(Forward, DirectLightIsWhitteds) {
       EXPECT_NEAR(seen, expected, 0.015 * expected)
           << "light " << static_cast<int>(kind) << " fades " << fades;
     }
+}
+
+// Lamp, floor and eye in water: light fades from the lamp to the floor and from there to the eye, as the
+// Whitted picture shows it. Dry, all is brighter.
+TEST_P(Forward, WaterTakesItsPart) {
+  Camera camera{{0, 3, 0.01F}, {0, 0, 0}, {0, 0, -1}, 30};
+  for (const bool orthographic : {false, true}) {
+    camera.projection = orthographic ? Projection::orthographic : Projection::perspective;
+    camera.view_height = 1.6F;
+    for (const LightKind kind : {LightKind::point, LightKind::disk, LightKind::mesh}) {
+      const auto brightness = [&](const RenderSettings& settings, float absorption) {
+        Light light = lamp(kind);
+        SceneBuilder builder;
+        if (kind == LightKind::mesh) add_mesh_lamp(builder, light);
+        builder.add_light(light);
+        add_quad(builder, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, builder.add_material(matt(0.5F)));
+        Material water = clear(1.33F);
+        water.absorption = Vec3(absorption);
+        add_box(builder, {-5, -5, -5}, {5, 5, 5}, builder.add_material(water));
+        return mean(render(builder, camera, settings));
+      };
+      RenderSettings settings = forward_settings(8, 30000);
+      settings.max_depth = 0; // what the water's faces reflect is no matter here
+      RenderSettings whitted = settings_of(8, 8);
+      whitted.samples_per_pixel = 4;
+      whitted.filter = PixelFilter::box;
+      const double seen = brightness(settings, 0.3F);
+      const double expected = brightness(whitted, 0.3F);
+      EXPECT_NEAR(seen, expected, 0.015 * expected) << static_cast<int>(kind) << orthographic;
+      EXPECT_LT(seen, 0.4 * brightness(settings, 0)) << static_cast<int>(kind) << orthographic;
+    }
+  }
 }
 
 // Pixel by pixel: parallel light through a picture of parallel rays, with a ball's shadow.

@@ -73,6 +73,37 @@ TEST(PhotonLights, CausticPhotonsGoToWhatReflects) {
   }
 }
 
+// Instances are where they are shown, and of the material that they show; prototypes are nowhere.
+TEST(PhotonLights, CausticPhotonsGoToInstances) {
+  const auto plan_of = [](bool shines, int instances, bool turned_over) {
+    SceneBuilder builder;
+    const std::uint32_t matt = builder.add_material({}), shining = builder.add_material(mirror());
+    builder.add_disk({0, 0, 0}, {0, 1, 0}, 10, matt);
+    builder.begin_prototype();
+    builder.add_sphere({0, 0, 0}, 2, shines ? shining : matt);
+    builder.add_disk({0, 0, 0}, {1, 0, 0}, 1, matt);
+    const std::uint32_t prototype = builder.end_prototype();
+    const Affine map{{0, 0.25F, 0}, {0.25F, 0, 0}, {0, 0, 0.25F}, {0, 2, 0}};
+    for (int i = 0; i < instances; ++i)
+      builder.add_instance(prototype, map, !turned_over ? no_index : shines ? matt : shining);
+    builder.add_light(lamp(LightKind::point));
+    return plan_caustic_photons(builder.build(), 10000);
+  };
+  EXPECT_EQ(plan_of(true, 0, false).count, 0U);
+  EXPECT_EQ(plan_of(true, 1, true).count, 0U);
+  EXPECT_EQ(plan_of(false, 1, false).count, 0U);
+  for (const auto& plan : {plan_of(true, 1, false), plan_of(false, 1, true), plan_of(false, 2000, true)}) {
+    ASSERT_EQ(plan.lights.size(), 1U);
+    EXPECT_EQ(plan.count, 10000U);
+    int near = 0;
+    for (std::uint32_t i = 0; i < 10000; ++i)
+      near += distance_to_ball(plan.lights[0], lamp(LightKind::point), i) < 0.5 ? 1 : 0;
+    EXPECT_GT(near, 2000); // of the ball around the instance's box, a third
+    EXPECT_NEAR(double(plan.lights[0].flux.x) * near / 10000,
+                2 * std::numbers::pi * (1 - std::sqrt(1 - 0.25 / 25)), 0.002);
+  }
+}
+
 TEST(PhotonLights, WhoSendsPhotons) {
   SceneBuilder builder = ball_over_floor();
   builder.add_light(lamp(LightKind::point));
@@ -88,6 +119,37 @@ TEST(PhotonLights, WhoSendsPhotons) {
   ASSERT_EQ(forward.lights.size(), 2U);
   EXPECT_EQ(forward.lights[1].light, 2U);
   EXPECT_NEAR(static_cast<double>(forward.lights[0].count), 50.5, 1);
+}
+
+// A unit square that shines 3 to both sides, alone and beside a point: each sends by its light.
+TEST(PhotonLights, MeshesSendTheirShare) {
+  SceneBuilder builder = ball_over_floor();
+  Material shining;
+  shining.emission = {2, 1, 0};
+  Light mesh = lamp(LightKind::mesh);
+  mesh.intensity = Vec3(1.5F);
+  mesh.material = builder.add_material(shining);
+  const std::vector<Vec3> corners{{0, 5, 0}, {1, 5, 0}, {1, 5, 1}, {0, 5, 1}};
+  const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
+  builder.add_mesh(corners, indices, mesh.material);
+  builder.add_light(mesh);
+  for (const bool caustic : {false, true}) {
+    const Scene scene = SceneBuilder(builder).build();
+    const PhotonPlan plan = caustic ? plan_caustic_photons(scene, 1000) : plan_forward_photons(scene, 1000);
+    ASSERT_EQ(plan.lights.size(), 1U) << caustic;
+    EXPECT_EQ(plan.lights[0].cells.size(), std::size_t{emission_side} * emission_side);
+    EXPECT_FLOAT_EQ(plan.lights[0].flux.x, 6.0F);
+    EXPECT_FLOAT_EQ(plan.lights[0].flux.y, 3.0F);
+  }
+  Light point = lamp(LightKind::point); // that fades as its light spreads
+  point.intensity = Vec3(1.0F);
+  point.constant = 0;
+  point.quadratic = 1;
+  builder.add_light(point);
+  const PhotonPlan plan = plan_forward_photons(builder.build(), 100000);
+  ASSERT_EQ(plan.lights.size(), 2U);
+  const double sent = 4 * std::numbers::pi * static_cast<double>(plan.lights[1].cells.size()) / 4096;
+  EXPECT_NEAR(plan.lights[0].count, 1e5 * 6 / (6 + sent), 2);
 }
 
 TEST(PhotonLights, NothingToSend) {

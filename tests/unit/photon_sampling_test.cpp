@@ -96,6 +96,26 @@ TEST(PhotonSampling, ScatteredDirectionsFollowTheCosine) {
   EXPECT_NEAR(sum_y / count, 0, 5e-3);
 }
 
+// Half of them to each side; places that are evenly spread give the cosine's mean, 2/3.
+TEST(PhotonSampling, MattSurfacesShineToBothSides) {
+  double above = 0, below = 0, sum_x = 0, sum_y = 0;
+  constexpr int side = 200;
+  for (int i = 0; i < side * side; ++i) {
+    const SampleOffset place{static_cast<float>(i % side) * 0.01F - 0.995F,
+                             static_cast<float>(i / side) * 0.01F - 0.995F};
+    const LightPlace d = matt_direction(place);
+    ASSERT_NEAR(d.x * d.x + d.y * d.y + d.z * d.z, 1, 1e-5F);
+    ASSERT_EQ(std::signbit(d.z), place.x < 0.0F);
+    (d.z < 0.0F ? below : above) += static_cast<double>(d.z);
+    sum_x += static_cast<double>(d.x), sum_y += static_cast<double>(d.y);
+  }
+  constexpr double half = side * side / 2;
+  EXPECT_NEAR(above / half, 2.0 / 3, 1e-3);
+  EXPECT_NEAR(below / half, -2.0 / 3, 1e-3);
+  EXPECT_NEAR(sum_x / half, 0, 1e-3);
+  EXPECT_NEAR(sum_y / half, 0, 1e-3);
+}
+
 TEST(PhotonSampling, TurnsHaveNumbersOfTheirOwn) {
   const std::uint32_t key = photon_key(1, 2, 3);
   const std::uint32_t a = next_photon_key(key, PhotonTurn::reflected);
