@@ -89,15 +89,16 @@ PhotonLevel make_level(std::vector<Photon> photons, std::uint64_t count, float r
   return level;
 }
 
-bool usable(const Photon& p) {
+bool usable(const Photon& p, const Aabb& reach) {
   const Vec3 sum = p.point + p.normal + p.flux;
-  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
+  if (!std::isfinite(sum.x) || !std::isfinite(sum.y) || !std::isfinite(sum.z)) return false;
+  return glm::clamp(p.point, reach.lower, reach.upper) == p.point;
 }
 
 } // namespace
 
-PhotonMap make_photon_map(std::vector<Photon> photons, std::uint64_t count, float radius) {
-  std::erase_if(photons, [](const Photon& photon) { return !usable(photon); });
+PhotonMap make_photon_map(std::vector<Photon> photons, std::uint64_t count, float radius, const Aabb& reach) {
+  std::erase_if(photons, [&](const Photon& photon) { return !usable(photon, reach); });
   PhotonMap map;
   if (photons.empty()) return map;
   if (radius > 0.0F) {

@@ -44,7 +44,9 @@ struct PhotonMap {
 };
 
 // count: how many photons were sent out. radius: of all photons; 0 gives each one that follows how many
-// others are near.
-PhotonMap make_photon_map(std::vector<Photon> photons, std::uint64_t count, float radius);
+// others are near. Photons outside of `reach` are left out: the cells of those that matter would grow with
+// them.
+PhotonMap make_photon_map(std::vector<Photon> photons, std::uint64_t count, float radius,
+                          const Aabb& reach = {Vec3(-infinity), Vec3(infinity)});
 
 } // namespace fastrt

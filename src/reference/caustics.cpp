@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/film/photon_sampling.hpp"
 #include "src/reference/photons.hpp"
+#include "src/scene/photon_targets.hpp"
 
 #include <array>
 #include <mutex>
@@ -21,7 +22,7 @@ PhotonMap trace_caustics(const Scene& scene, const HitFinder& finder, const Surr
                        photon.index, photon.key});
   };
   trace_photons(scene, finder, around, plan, chunks, settings, false, keep, progress);
-  return make_photon_map(std::move(photons), plan.count, settings.caustic_radius);
+  return make_photon_map(std::move(photons), plan.count, settings.caustic_radius, caustic_reach(scene));
 }
 
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/render/caustics.hpp"
 
+#include "src/scene/photon_targets.hpp"
+
 #include <utility>
 
 namespace fastrt {
@@ -32,10 +34,10 @@ PhotonLevelView view_of(const PhotonLevel& level) {
 Caustics::Caustics(const Tracer::Parts& parts, const RenderSettings& settings)
     : scene_(parts), plan_(plan_caustic_photons(parts.scene, settings.caustic_photons)),
       chunks_(photon_chunks(plan_)), pass_(make_photon_pass(parts, scene_, plan_, chunks_, settings)),
-      radius_(settings.caustic_radius) {}
+      radius_(settings.caustic_radius), reach_(caustic_reach(parts.scene)) {}
 
 void Caustics::trace(FrameProgress& progress) {
-  map_ = make_photon_map(trace_photons(pass_, progress), plan_.count, radius_);
+  map_ = make_photon_map(trace_photons(pass_, progress), plan_.count, radius_, reach_);
   for (const PhotonLevel& level : map_.levels) levels_.push_back(view_of(level));
   view_ = {levels_.data(), static_cast<int>(levels_.size())};
 }

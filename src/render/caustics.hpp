@@ -23,6 +23,7 @@ private:
   std::vector<PhotonChunk> chunks_;
   PhotonPass pass_;
   float radius_;
+  Aabb reach_;
   PhotonMap map_;
   std::vector<PhotonLevelView> levels_;
   PhotonMapView view_{};

@@ -165,6 +165,14 @@ PhotonTargets whole_scene(const Scene& scene) {
   return targets;
 }
 
+Aabb caustic_reach(const Scene& scene) {
+  const Aabb& box = scene.bounds();
+  if (box.empty()) return {Vec3(-infinity), Vec3(infinity)};
+  const Vec3 extent = box.extent();
+  const Vec3 around(4.0F * std::max(extent.x, std::max(extent.y, extent.z)));
+  return {box.lower - around, box.upper + around};
+}
+
 PhotonTargets specular_objects(const Scene& scene) {
   PhotonTargets targets;
   for (std::uint32_t id = scene.first_of(PrimitiveKind::plane); id < scene.primitive_count(); ++id)

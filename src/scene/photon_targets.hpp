@@ -23,6 +23,10 @@ PhotonTargets::Ball ball_around(const PhotonTargets& targets);
 
 PhotonTargets whole_scene(const Scene& scene);
 
+// Where caustics are looked for: the box of what has bounds, and four times its longest side around it.
+// Planes go on for ever, and light that leaves it almost level would meet them anywhere.
+Aabb caustic_reach(const Scene& scene);
+
 // Whatever reflects light or bends it, object by object and instance by instance.
 PhotonTargets specular_objects(const Scene& scene);
 

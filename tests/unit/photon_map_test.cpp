@@ -120,6 +120,17 @@ TEST(PhotonMap, LightStaysOnItsSurface) {
   EXPECT_EQ(reference::caustic_light(map, other), Vec3(0.0F));
 }
 
+// What lands far away leaves the others' radii as they are.
+TEST(PhotonMap, FarPhotonsAreLeftOut) {
+  std::vector<Photon> photons = photons_on_floor(500, 500);
+  const PhotonMap map = make_photon_map(photons, 1000, 0);
+  photons.push_back(photons[0]);
+  photons.back().point.x = 1e6F;
+  const Aabb reach{Vec3(-100.0F), Vec3(100.0F)};
+  EXPECT_TRUE(same(map, make_photon_map(photons, 1000, 0, reach)));
+  EXPECT_FALSE(same(map, make_photon_map(photons, 1000, 0)));
+}
+
 TEST(PhotonMap, OddPhotons) {
   EXPECT_TRUE(make_photon_map({}, 10, 0).levels.empty());
   std::vector<Photon> photons = photons_on_floor(1, 0);
