@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/bvh_quality.hpp>
 #include <fastrt/isa.hpp>
 #include <fastrt/scene.hpp>
 
@@ -54,6 +55,7 @@ struct BvhStats {
 };
 
 struct TracerSettings {
+  BvhQuality quality = BvhQuality::standard;
   Isa isa;         // which kernels
   int threads = 0; // for the build; 0 takes every core
   TracerSettings() : isa(select_isa("auto")) {}

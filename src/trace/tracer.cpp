@@ -117,9 +117,10 @@ void fill_stats(Tracer::Parts& parts, const WideTree& tree) {
 }
 
 // Boxes -> binary tree -> wide tree -> blocks. The tree's own parts are let go where the next has been made.
-WideTree build(Tracer::Parts& parts, int threads) {
+WideTree build(Tracer::Parts& parts, int threads, BvhQuality quality) {
   BuildSettings settings;
   settings.threads = threads;
+  settings.quality = quality;
   settings.run_size = run_size_of(parts.isa);
   WideTree tree;
   {
@@ -143,7 +144,7 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   if (!isa_available(parts.isa)) parts.isa = select_isa(isa_name(settings.isa)); // throws
   parts.kernels = table_of(parts.isa);
   const auto start = std::chrono::steady_clock::now();
-  WideTree tree = build(parts, settings.threads);
+  WideTree tree = build(parts, settings.threads, settings.quality);
   parts.stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fill_stats(parts, tree);
   parts.nodes = std::move(tree.nodes);
