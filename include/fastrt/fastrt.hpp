@@ -12,6 +12,7 @@
 #pragma once
 
 #include <fastrt/aov.hpp>
+#include <fastrt/bvh_quality.hpp>
 #include <fastrt/camera.hpp>
 #include <fastrt/column.hpp>
 #include <fastrt/diagnostics.hpp>

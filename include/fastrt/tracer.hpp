@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/bvh_quality.hpp>
 #include <fastrt/isa.hpp>
 #include <fastrt/scene.hpp>
 
@@ -57,6 +58,7 @@ struct BvhStats {
 };
 
 struct TracerSettings {
+  BvhQuality quality = BvhQuality::standard;
   Isa isa;         // which kernels
   int threads = 0; // for the build; 0 takes every core
   // false: no bounding volume keeps a ray from a primitive, to show what they buy. The answers are the same.

@@ -6,6 +6,10 @@
 
 #include <emmintrin.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace fastrt {
 
 struct LaneBox {
@@ -39,6 +43,15 @@ inline __m128 doubled_centroid(const LaneBox& box) { return _mm_add_ps(box.lower
 inline __m128 area_terms(const LaneBox& box, __m128 scale) {
   const __m128 extent = _mm_mul_ps(_mm_sub_ps(box.upper, box.lower), scale);
   return _mm_mul_ps(extent, _mm_shuffle_ps(extent, extent, _MM_SHUFFLE(3, 0, 2, 1)));
+}
+
+// What keeps the areas of boxes within `bounds` from running out of floats.
+inline __m128 area_scale(const LaneBox& bounds) {
+  alignas(16) float extent[4];
+  _mm_store_ps(extent, _mm_sub_ps(bounds.upper, bounds.lower));
+  const float largest = std::max(extent[0], std::max(extent[1], extent[2]));
+  const bool usable = largest >= std::numeric_limits<float>::min() && largest < infinity;
+  return _mm_set1_ps(usable ? std::ldexp(1.0F, -std::min(std::ilogb(largest), 126)) : 1.0F);
 }
 
 // The half areas of four boxes from their terms.

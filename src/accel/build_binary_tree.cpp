@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/accel/parallel.hpp"
+#include "src/accel/reinsertion.hpp"
 #include "src/accel/subtree.hpp"
 
 #include <fastrt/error.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -64,12 +63,7 @@ private:
     root_.range.end = boxes_.size();
     measure_chunks(root_);
     check_groups();
-    const LaneBox& bounds = root_.range.bounds;
-    alignas(16) float extent[4];
-    _mm_store_ps(extent, _mm_sub_ps(bounds.upper, bounds.lower));
-    const float largest = std::max(extent[0], std::max(extent[1], extent[2]));
-    const bool usable = largest >= std::numeric_limits<float>::min() && largest < infinity;
-    context_.scale = _mm_set1_ps(usable ? std::ldexp(1.0F, -std::min(std::ilogb(largest), 126)) : 1.0F);
+    context_.scale = area_scale(root_.range.bounds);
     build(root_);
   }
 
@@ -217,7 +211,9 @@ BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& s
   if (boxes.empty()) return {};
   if (boxes.size() > std::size_t{max_blocks} * block_size)
     throw LimitError("too many primitives for one tree: " + std::to_string(boxes.size()));
-  return Builder(boxes, settings).build();
+  BinaryTree tree = Builder(boxes, settings).build();
+  if (settings.quality == BvhQuality::high) reinsert_subtrees(tree, settings);
+  return tree;
 }
 
 } // namespace fastrt

@@ -3,6 +3,7 @@
 
 #include "src/accel/wide_node.hpp"
 
+#include <fastrt/bvh_quality.hpp>
 #include <fastrt/column.hpp>
 #include <fastrt/math.hpp>
 
@@ -41,12 +42,13 @@ struct BinaryTree {
 struct BuildSettings {
   int threads = 0;  // 0 takes every core. The tree is the same for any number.
   int run_size = 8; // primitives that are met at once, 4 or 8: what the tree's cost counts
+  BvhQuality quality = BvhQuality::standard;
 };
 
 // A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts runs of run_size
-// primitives, not primitives. Leaves hold 1 .. block_size * max_leaf_blocks primitives of one group; at most
-// max_tree_depth levels. Uses `boxes` up: their values
-// afterwards mean nothing. Boxes must be finite.
+// primitives, not primitives; of high quality, its nodes are then moved about, see reinsertion.hpp. Leaves
+// hold 1 .. block_size * max_leaf_blocks primitives of one group; at most max_tree_depth levels. Uses `boxes`
+// up: their values afterwards mean nothing. Boxes must be finite.
 BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings);
 
 // The wide tree: nodes in depth-first order, and for each group the primitive ids of its blocks, block_size a

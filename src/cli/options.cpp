@@ -279,6 +279,10 @@ void add_engine_options(OptionAdder& add, Options& options) {
             });
   add.value("--isa", "NAME", "auto, avx512, avx2, sse4.2 or scalar [FASTRT_ISA, or auto: the widest]",
             [&](const std::string&, const std::string& text) { options.isa = text; });
+  add.value("--bvh-quality", "NAME", "standard, or high: takes longer to build, and less to trace [standard]",
+            [&](const std::string& name, const std::string& text) {
+              options.bvh_quality = parse_bvh_quality(name, text);
+            });
   add.flag("--no-culling", options.culling, false,
            "Hold every ray against every primitive, to see what bounding volumes buy");
   add.flag("--verify", options.verify, true,

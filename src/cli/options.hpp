@@ -55,6 +55,7 @@ struct Options {
 
   int threads = 0;                // 0: what OpenMP would take
   std::optional<std::string> isa; // empty: FASTRT_ISA, or the widest
+  BvhQuality bvh_quality = BvhQuality::standard;
   bool culling = true;
   bool verify = false;
   bool strict = false;

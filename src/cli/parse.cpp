@@ -228,6 +228,12 @@ PixelFilter parse_filter(std::string_view option, std::string_view text) {
   refuse(option, text, "box, tent, gaussian or mitchell");
 }
 
+BvhQuality parse_bvh_quality(std::string_view option, std::string_view text) {
+  if (text == "standard") return BvhQuality::standard;
+  if (text == "high") return BvhQuality::high;
+  refuse(option, text, "standard or high");
+}
+
 Integrator parse_integrator(std::string_view option, std::string_view text) {
   if (text == "whitted") return Integrator::whitted;
   if (text == "forward") return Integrator::forward;

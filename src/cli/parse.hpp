@@ -54,6 +54,9 @@ Window parse_window(std::string_view option, std::string_view text);
 // "box", "tent", "gaussian" or "mitchell".
 PixelFilter parse_filter(std::string_view option, std::string_view text);
 
+// "standard" or "high".
+BvhQuality parse_bvh_quality(std::string_view option, std::string_view text);
+
 // "whitted" or "forward".
 Integrator parse_integrator(std::string_view option, std::string_view text);
 

@@ -198,6 +198,7 @@ int run(const Options& given, Clock::time_point start) {
   RunStats stats;
   TracerSettings tracer_settings;
   tracer_settings.isa = choose_isa(options);
+  tracer_settings.quality = options.bvh_quality;
   tracer_settings.culling = options.culling;
   tracer_settings.threads = stats.threads = choose_threads(options);
   check_image_size(options);

@@ -124,9 +124,10 @@ void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
 }
 
 // Trees -> blocks and rows.
-SceneTrees build(Tracer::Parts& parts, int threads) {
+SceneTrees build(Tracer::Parts& parts, int threads, BvhQuality quality) {
   BuildSettings settings;
   settings.threads = threads;
+  settings.quality = quality;
   settings.run_size = run_size_of(parts.isa);
   SceneTrees trees = build_scene_trees(parts.scene, settings);
   const auto& slots = trees.all.slots;
@@ -146,7 +147,7 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   if (!isa_available(parts.isa)) parts.isa = select_isa(isa_name(settings.isa)); // throws
   parts.kernels = table_of(parts.isa);
   const auto start = std::chrono::steady_clock::now();
-  SceneTrees trees = build(parts, settings.threads);
+  SceneTrees trees = build(parts, settings.threads, settings.quality);
   fill_stats(parts, trees);
   parts.stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   parts.nodes = std::move(trees.all.nodes);

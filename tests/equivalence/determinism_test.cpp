@@ -34,6 +34,20 @@ TEST(Determinism, ATracerIsTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Determinism, ABetterTreeMakesTheSamePicture) {
+  for (const Shot& shot : {mirrors("mirrors", 8, 0), coloured_shadows()}) {
+    TracerSettings settings;
+    settings.isa = Isa::scalar;
+    const Frame expected = render(Tracer(shot.scene, settings), shot.camera, shot.settings);
+    settings.quality = BvhQuality::high;
+    for (const Isa isa : available_isas()) {
+      settings.isa = isa;
+      expect_equal(render(Tracer(shot.scene, settings), shot.camera, shot.settings), expected,
+                   shot.name + ", " + isa_word(isa) + ", high");
+    }
+  }
+}
+
 // Everything that is a length times `factor`, a power of two; absorption is per length.
 Shot in_other_units(const Shot& shot, float factor) {
   SceneDesc desc = shot.scene.desc();
