@@ -197,8 +197,8 @@ int run(const Options& given, Clock::time_point start) {
   for (const std::string& warning : options.warnings) warn(options, warning);
   RunStats stats;
   TracerSettings tracer_settings;
+  tracer_settings.quality = stats.bvh_quality = options.bvh_quality;
   tracer_settings.isa = choose_isa(options);
-  tracer_settings.quality = options.bvh_quality;
   tracer_settings.culling = options.culling;
   tracer_settings.threads = stats.threads = choose_threads(options);
   check_image_size(options);

@@ -159,8 +159,11 @@ std::string seconds_json(const RunStats& stats) {
   return object.text();
 }
 
-std::string bvh_json(const BvhStats& bvh) {
+std::string quality_word(BvhQuality quality) { return quality == BvhQuality::high ? "high" : "standard"; }
+
+std::string bvh_json(const BvhStats& bvh, BvhQuality quality) {
   JsonObject object;
+  object.add("quality", quality_word(quality));
   object.add("sah_cost", bvh.sah_cost);
   object.add("nodes", std::uint64_t{bvh.node_count});
   object.add("leaves", std::uint64_t{bvh.leaf_count});
@@ -223,9 +226,10 @@ std::string stats_text(const RunStats& stats) {
           ", refracted " + std::to_string(rays.refracted) + "; " + short_number(stats.mrays_per_second()) +
           " Mrays/s\n";
   text += tests_text(stats);
-  text += "tree     SAH cost " + short_number(bvh.sah_cost) + ", " + count(bvh.node_count, "node") + ", " +
-          std::to_string(bvh.leaf_count) + " leaves, " + count(bvh.block_count, "block") + ", depth " +
-          std::to_string(bvh.depth) + ", " + short_number(mega(static_cast<double>(bvh.bytes))) + " MB (" +
+  text += "tree     " + quality_word(stats.bvh_quality) + " quality, SAH cost " + short_number(bvh.sah_cost) +
+          ", " + count(bvh.node_count, "node") + ", " + std::to_string(bvh.leaf_count) + " leaves, " +
+          count(bvh.block_count, "block") + ", depth " + std::to_string(bvh.depth) + ", " +
+          short_number(mega(static_cast<double>(bvh.bytes))) + " MB (" +
           short_number(bvh.bytes_per_primitive) + " bytes a primitive)\n";
   text += "memory   " + short_number(mega(static_cast<double>(stats.peak_rss_bytes))) + " MB at most\n";
   return text;
@@ -253,7 +257,7 @@ std::string stats_json(const RunStats& stats) {
   object.raw("rays", rays_json(stats.rays));
   object.raw("tests", tests_json(stats));
   object.add("mrays_per_second", stats.mrays_per_second());
-  object.raw("bvh", bvh_json(stats.bvh));
+  object.raw("bvh", bvh_json(stats.bvh, stats.bvh_quality));
   object.add("scene_bytes", std::uint64_t{stats.scene_bytes});
   object.add("peak_rss_bytes", std::uint64_t{stats.peak_rss_bytes});
   if (stats.verify) object.raw("verify", verify_json(*stats.verify));

@@ -19,6 +19,7 @@ struct RunStats {
   double mean_samples = 0;
   std::size_t aovs = 0; // that were rendered
   Isa isa = Isa::scalar;
+  BvhQuality bvh_quality = BvhQuality::standard;
   std::size_t triangles = 0, spheres = 0, shapes = 0, lights = 0; // shapes: other primitives
   std::size_t instances = 0;
   double read_seconds = 0, build_seconds = 0, render_seconds = 0, write_seconds = 0, total_seconds = 0;

@@ -69,6 +69,7 @@ options_out_of_range() {
 --integrator forward --caustics
 --integrator forward --adaptive 0.1
 --integrator forward --aperture 0.1 -s 4
+--bvh-quality best
 --eye 1,2
 --eye 1,2,inf
 --ambient -1,0,0

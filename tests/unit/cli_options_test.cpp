@@ -122,6 +122,12 @@ TEST(CliOptions, SignatureTakesItsValueOnlyAfterEquals) {
   EXPECT_EQ(parse({"--signature=b.png", "a.obj"}).signature, "b.png");
 }
 
+TEST(CliOptions, QualityOfTheTree) {
+  EXPECT_EQ(parse({"a.obj"}).bvh_quality, BvhQuality::standard);
+  EXPECT_EQ(parse({"a.obj", "--bvh-quality", "standard"}).bvh_quality, BvhQuality::standard);
+  EXPECT_EQ(parse({"--bvh-quality=high", "a.obj"}).bvh_quality, BvhQuality::high);
+}
+
 TEST(CliOptions, Views) {
   const Options options = parse({"--crop", "1,2,30,40", "--window", "-1,2,-3,4", "--focal", "2.5",
                                  "--aperture", "0.1", "--focus=7", "-s", "4", "--filter", "mitchell",
@@ -241,6 +247,7 @@ TEST(CliOptions, UsageErrors) {
       {"a.obj", "-o", ""},
       {"a.obj", "-t", "0"},
       {"a.obj", "--filter", "cone"},
+      {"a.obj", "--bvh-quality", "best"},
       {"a.obj", "--seed", "-1"},
       {"a.obj", "--seed", "4294967296"},
       {"a.obj", "--max-depth", "-1"},
