@@ -14,12 +14,6 @@
 namespace fastrt {
 namespace {
 
-void copy(const Vec3& from, float (&to)[3]) {
-  to[0] = from.x;
-  to[1] = from.y;
-  to[2] = from.z;
-}
-
 EyeView view_of(const EyeProjection& eye, const Crop& part) {
   EyeView view{};
   copy(eye.origin, view.origin);

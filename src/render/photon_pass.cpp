@@ -12,12 +12,6 @@
 namespace fastrt {
 namespace {
 
-void copy(const Vec3& from, float (&to)[3]) {
-  to[0] = from.x;
-  to[1] = from.y;
-  to[2] = from.z;
-}
-
 EmissionView view_of(const PhotonLight& light) {
   EmissionView view{};
   view.light = light.light;

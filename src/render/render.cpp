@@ -23,12 +23,6 @@
 namespace fastrt {
 namespace {
 
-void copy(const Vec3& from, float (&to)[3]) {
-  to[0] = from.x;
-  to[1] = from.y;
-  to[2] = from.z;
-}
-
 AovTargets targets_of(Frame& frame) {
   AovTargets to{};
   std::int32_t** const ids[] = {&to.object, &to.primitive, &to.material, &to.recursion, &to.cost};

@@ -6,12 +6,6 @@
 namespace fastrt {
 namespace {
 
-void copy(const Vec3& from, float (&to)[3]) {
-  to[0] = from.x;
-  to[1] = from.y;
-  to[2] = from.z;
-}
-
 bool any_not_zero(const Vec3& v) { return v.x != 0.0F || v.y != 0.0F || v.z != 0.0F; }
 bool any_positive(const Vec3& v) { return v.x > 0.0F || v.y > 0.0F || v.z > 0.0F; }
 

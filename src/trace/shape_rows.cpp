@@ -7,10 +7,6 @@
 namespace fastrt {
 namespace {
 
-void copy(const Vec3& from, float (&to)[3]) {
-  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
-}
-
 template <class Row>
 void copy_box(const Aabb& box, Row& row) {
   copy(box.lower, row.low);
@@ -63,7 +59,7 @@ PlaneRow row_of(const PlaneShape& plane) {
   return row;
 }
 
-void copy(const Affine& from, float (&to)[4][3]) {
+void copy_map(const Affine& from, float (&to)[4][3]) {
   copy(from.x, to[0]);
   copy(from.y, to[1]);
   copy(from.z, to[2]);
@@ -75,8 +71,8 @@ InstanceRow instance_row(const Scene& scene, std::size_t i, const std::vector<Pr
   const InstanceShape& shape = scene.shapes().instances[i];
   const PrototypeTree& tree = prototypes[instances.prototype[i]];
   InstanceRow row{};
-  copy(shape.to_object, row.to_object);
-  copy(instances.to_world[i], row.to_world);
+  copy_map(shape.to_object, row.to_object);
+  copy_map(instances.to_world[i], row.to_world);
   copy_box(shape.box, row);
   row.growth = shape.growth;
   row.largest_coordinate = tree.largest_coordinate;

@@ -16,6 +16,13 @@
 
 namespace fastrt {
 
+// A vector into a row of plain data.
+inline void copy(const Vec3& from, float (&to)[3]) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
 // The scene's textures as rows, which point into one another and into the scene.
 struct TextureRows {
   std::vector<TextureLevel> levels;

@@ -43,7 +43,7 @@ seed_matters() {
 
 verify_every_scene() {
   local scene
-  for scene in "$scenes"/*.obj "$scenes"/*.nff; do
+  for scene in "$scenes"/*.obj "$scenes"/*.nff "$scenes"/*.ply; do
     expect 0 "$scene" -r 64x64 -o none --verify
     grep -q '^verify: 0 of 4096 pixels differ$' out || fail "$scene: no verdict on pixels"
     grep -q '^verify: 0 of 4096 primitive ids differ$' out || fail "$scene: no verdict on ids"
