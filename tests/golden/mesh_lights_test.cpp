@@ -71,6 +71,20 @@ TEST_P(UnderALamp, BothSidesShine) {
   expect(6e-3, [](const DVec3& p) { return rectangle_factor(p, -1, 1, -1, 1, 2); });
 }
 
+// One half of the square is shown by an instance with the lamp's material, the other keeps its own; the
+// prototype itself is nowhere.
+TEST_P(UnderALamp, InstancesShineWhereTheyAreShown) {
+  builder_.begin_prototype();
+  add_quad(builder_, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}, builder_.add_material(black()));
+  const std::uint32_t dark = builder_.end_prototype();
+  builder_.begin_prototype();
+  add_quad(builder_, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}, shining_);
+  const std::uint32_t bright = builder_.end_prototype();
+  builder_.add_instance(dark, {{1, 0, 0}, {0, 1, 0}, {0, 0, 2}, {-1, 2, -1}}, shining_);
+  builder_.add_instance(bright, {{1, 0, 0}, {0, 1, 0}, {0, 0, 2}, {0, 2, -1}});
+  expect(6e-3, [](const DVec3& p) { return rectangle_factor(p, -1, 1, -1, 1, 2); });
+}
+
 // The same square of triangles from large to tiny, and a needle without an area.
 TEST_P(UnderALamp, AreasCountAndNotTriangles) {
   std::vector<Vec3> positions{{-1, 2, -1}, {-1, 2, 1}};
