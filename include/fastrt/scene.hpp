@@ -183,7 +183,8 @@ public:
   // Bytes held by the columns.
   std::size_t bytes() const noexcept;
 
-  const SceneShapes& shapes() const noexcept { return *shapes_; } // of the library alone
+  // Of the library alone.
+  const SceneShapes& shapes() const noexcept { return *shapes_; }
   const LightMeshes& light_meshes() const noexcept { return *light_meshes_; }
 
 private:

@@ -79,8 +79,8 @@ public:
   Isa isa() const noexcept;
   const BvhStats& bvh_stats() const noexcept;
 
-  // The hit with the smallest t per ray; at equal t the smallest primitive id, and what no instance shows
-  // before what one shows.
+  // The hit with the smallest t per ray; at equal t what no instance shows before what one shows, then the
+  // smallest instance, then the smallest primitive id.
   void closest_hit(const RayArrays& rays, const HitArrays& hits,
                    Coherence coherence = Coherence::unknown) const;
   // hit[i] = 1 if anything lies in (t_min, t_max) of ray i, else 0.

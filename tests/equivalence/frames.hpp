@@ -82,4 +82,23 @@ inline std::size_t pixels_with_hits(const Frame& frame) {
   return count;
 }
 
+// Twenty random pictures, make_shot(first) and so on, by every ISA; together they show enough of everything.
+template <class MakeShot>
+void expect_shots_to_match(const MakeShot& make_shot, std::uint32_t first) {
+  std::size_t seen = 0;
+  RayCounts rays;
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(effort(20)); ++i) {
+    const Shot shot = make_shot(first + i);
+    const Frame expected = render_reference(shot.scene, shot.camera, shot.settings);
+    seen += pixels_with_hits(expected);
+    rays += expected.rays;
+    expect_every_isa_makes(expected, shot, {1});
+  }
+  if (slow_build) return;
+  EXPECT_GT(seen, 500U);
+  EXPECT_GT(rays.shadow, 100U);
+  EXPECT_GT(rays.reflected, 100U);
+  EXPECT_GT(rays.refracted, 100U);
+}
+
 } // namespace fastrt::test

@@ -28,22 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Shots, DesignedFrames, testing::ValuesIn(designed_shots
 class RandomFrames : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(RandomFrames, AreTheReferences) {
-  std::size_t seen = 0;
-  RayCounts rays;
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(effort(20)); ++i) {
-    const Shot shot = any_shot(100 * GetParam() + i);
-    const Frame expected = render_reference(shot.scene, shot.camera, shot.settings);
-    seen += pixels_with_hits(expected);
-    rays.shadow += expected.rays.shadow;
-    rays.reflected += expected.rays.reflected;
-    rays.refracted += expected.rays.refracted;
-    expect_every_isa_makes(expected, shot, {1});
-  }
-  if (slow_build) return;
-  EXPECT_GT(seen, 500U);
-  EXPECT_GT(rays.shadow, 100U);
-  EXPECT_GT(rays.reflected, 100U);
-  EXPECT_GT(rays.refracted, 100U);
+  expect_shots_to_match(any_shot, 100 * GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFrames, testing::Range(0U, 8U));

@@ -4,6 +4,7 @@
 #include "src/reference/surface.hpp"
 #include "tests/equivalence/answers.hpp"
 #include "tests/equivalence/geometry_scenes.hpp"
+#include "tests/equivalence/next_ray.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,28 +68,6 @@ protected:
   Vec3 around(float farthest, Random& random) const {
     const float size = GetParam().scale * (GetParam().deformation == Deformation::sheared ? 4.0F : 1.0F);
     return Vec3(GetParam().offset) + size * random.uniform(1.3F, farthest) * random.direction();
-  }
-
-  // The next ray from a surface: reflected if `light` is null, else from the light to it.
-  static Ray next_ray(const reference::Surface& surface, const Vec3* light, Random& random) {
-    Ray ray;
-    ray.excluded = surface.planar;
-    ray.excluded_instance = surface.instance;
-    const Vec3& normal = surface.geometric_normal;
-    if (light == nullptr) {
-      ray.origin = surface.point + reference::offset_for(surface.magnitude) * normal;
-      ray.direction = random.direction();
-      // Often at a grazing angle.
-      if (random.below(2) == 0) ray.direction += -0.99F * glm::dot(ray.direction, normal) * normal;
-      if (glm::dot(ray.direction, normal) < 0.0F) ray.direction = -ray.direction;
-      return ray;
-    }
-    const float size =
-        reference::max(surface.magnitude, reference::largest_magnitude(*light) * surface.growth);
-    ray.origin = *light;
-    ray.direction = (surface.point + reference::offset_for(size) * normal) - *light;
-    ray.t_max = 1;
-    return ray;
   }
 
   // How many of the next rays hit something.

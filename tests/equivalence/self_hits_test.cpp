@@ -5,6 +5,7 @@
 #include "src/reference/surface.hpp"
 #include "tests/equivalence/answers.hpp"
 #include "tests/equivalence/geometry_scenes.hpp"
+#include "tests/equivalence/next_ray.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,26 +54,6 @@ protected:
       ray.direction = target_on(scene_, random) - ray.origin;
     }
     return rays;
-  }
-
-  // The next ray from a surface: reflected if `light` is null, else from the light to it.
-  static Ray next_ray(const reference::Surface& surface, const Vec3* light, Random& random) {
-    Ray ray;
-    ray.excluded = surface.planar;
-    const Vec3& normal = surface.geometric_normal;
-    if (light == nullptr) {
-      ray.origin = surface.point + reference::offset_for(surface.magnitude) * normal;
-      ray.direction = random.direction();
-      // Often at a grazing angle.
-      if (random.below(2) == 0) ray.direction += -0.99F * glm::dot(ray.direction, normal) * normal;
-      if (glm::dot(ray.direction, normal) < 0.0F) ray.direction = -ray.direction;
-      return ray;
-    }
-    const float size = reference::max(surface.magnitude, reference::largest_magnitude(*light));
-    ray.origin = *light;
-    ray.direction = (surface.point + reference::offset_for(size) * normal) - *light;
-    ray.t_max = 1;
-    return ray;
   }
 
   // How many of the next rays hit something.
