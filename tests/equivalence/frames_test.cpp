@@ -27,9 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Shots, DesignedFrames, testing::ValuesIn(designed_shots
 
 class RandomFrames : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(RandomFrames, AreTheReferences) {
-  expect_shots_to_match(any_shot, 100 * GetParam());
-}
+TEST_P(RandomFrames, AreTheReferences) { expect_shots_to_match(any_shot, 100 * GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFrames, testing::Range(0U, 8U));
 

@@ -70,9 +70,7 @@ Shot instance_shot(std::uint32_t seed) {
 
 class InstanceFrames : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(InstanceFrames, AreTheReferences) {
-  expect_shots_to_match(instance_shot, 100 * GetParam());
-}
+TEST_P(InstanceFrames, AreTheReferences) { expect_shots_to_match(instance_shot, 100 * GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, InstanceFrames, testing::Range(0U, 5U));
 
