@@ -50,6 +50,7 @@ public:
 
   BinaryTree build() {
     run_tasks(threads_, failure_, [&] { build_root(); });
+    boxes_ = other_ = {}; // all is in the nodes now, which take their place
     std::uint32_t next = 1;
     place(root_, 0, next);
     tree_.nodes.resize(next);

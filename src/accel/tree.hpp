@@ -48,7 +48,7 @@ struct BuildSettings {
 // A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts runs of run_size
 // primitives, not primitives; of high quality, its nodes are then moved about, see reinsertion.hpp. Leaves
 // hold 1 .. block_size * max_leaf_blocks primitives of one group; at most max_tree_depth levels. Uses `boxes`
-// up: their values afterwards mean nothing. Boxes must be finite.
+// up: there are none afterwards. Boxes must be finite.
 BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings);
 
 // The wide tree: nodes in depth-first order, and for each group the primitive ids of its blocks, block_size a

@@ -11,9 +11,9 @@ namespace {
 constexpr std::size_t huge_page = std::size_t{1} << 21U;
 
 // A page at a time, large columns cost thousands of page faults, and walking them misses the TLB. What is
-// smaller than a few huge pages is not worth their alignment.
+// smaller than a huge page can't have one.
 std::align_val_t alignment_of(std::size_t bytes) {
-  return std::align_val_t{bytes >= 2 * huge_page ? huge_page : column_alignment};
+  return std::align_val_t{bytes >= huge_page ? huge_page : column_alignment};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ void* allocate_column(std::size_t bytes) {
   void* const memory = ::operator new(bytes, alignment);
 #ifdef MADV_HUGEPAGE
   // Advice alone: without it all works as well. The last, partial page stays one of small pages.
-  if (bytes >= 2 * huge_page) ::madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
+  if (bytes >= huge_page) ::madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif
   return memory;
 }
