@@ -47,10 +47,11 @@ inline bool are_digits(__m128i bytes) {
   return _mm_movemask_epi8(_mm_cmpeq_epi8(_mm_max_epu8(bytes, nine), nine)) == 0xFFFF;
 }
 
-// Sixteen digits to four numbers of four digits. In 16 bits, (a + 256 b) * (2560 + 1) is 256 (10 a + b) + a.
+// Sixteen digits to four numbers of four digits.
 inline __m128i join_digits(__m128i digits) {
-  const __m128i pairs = _mm_srli_epi16(_mm_mullo_epi16(digits, _mm_set1_epi16(2561)), 8);
-  return _mm_madd_epi16(pairs, _mm_set1_epi32(100 + (1 << 16)));
+  const __m128i even = _mm_and_si128(digits, _mm_set1_epi16(0xFF)), odd = _mm_srli_epi16(digits, 8);
+  return _mm_add_epi32(_mm_madd_epi16(even, _mm_set1_epi32(1000 + (10 << 16))),
+                       _mm_madd_epi16(odd, _mm_set1_epi32(100 + (1 << 16))));
 }
 
 // Four runs of eight digits to four numbers.

@@ -59,17 +59,16 @@ template <std::size_t least, std::size_t most>
 
 } // namespace
 
-// Three bare vertex indices that end the line, in a file whose faces have nothing else.
+// Three bare vertex indices behind one space each, in a file whose faces have nothing else.
 [[gnu::always_inline]] inline bool ObjFiller::take_bare_face(MarkedText& next) {
   MarkedText p = next;
-  skip_spaces(p);
-  if (p.at_line_end() || p.text[p.at[1]] != ' ' || p.text[p.at[2]] != ' ') return false;
-  __m128i indices;
   const std::uint64_t i = now_.before.triangles;
   const __m128i most = _mm_set1_epi32(static_cast<int>(totals_.positions));
-  if (!take_three_indices<false>(p, most, indices) || i == last_.triangles) return false;
+  __m128i indices;
+  if (p.text[p.at[1]] != ' ' || p.text[p.at[2]] != ' ' || i == last_.triangles) return false;
+  if (!take_three_indices<false>(p, most, indices)) return false;
   p.at += 3;
-  skip_spaces(p);
+  if (p.mark() != '\n') skip_spaces(p);
   if (!p.at_line_end()) return false;
   TriangleColumns& rows = desc_.triangles;
   const auto [a, b, c] = first_three(indices);
@@ -140,7 +139,7 @@ void ObjFiller::put_face(std::span<const Corner> corners) {
 // The line at `line`, whose first mark is at p. Goes to its end.
 [[gnu::always_inline]] inline bool ObjFiller::take_plain(const char* line, MarkedText& p) {
   const std::ptrdiff_t length = p.place() - line; // of the keyword, if it is one
-  if (!is_blank(p.mark())) return false;
+  if (p.mark() != ' ' && !is_blank(p.mark())) return false;
   if (length == 1 && line[0] == 'f') return (bare_faces_ && take_bare_face(p)) || take_any_face(p);
   if (line[0] != 'v') return false;
   if (length == 1) {
