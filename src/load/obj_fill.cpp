@@ -30,22 +30,31 @@ template <std::size_t least, std::size_t most>
   return {all[0], all[1], all[2]};
 }
 
-// Takes v, v/t, v//n or v/t/n, and goes to the space or line end behind it.
+// How many of what the three numbers of a corner count there are.
+inline __m128i corner_totals(const ObjCounts& totals) {
+  const auto signed_of = [](std::uint64_t total) { return static_cast<int>(total); };
+  return _mm_set_epi32(0, signed_of(totals.normals), signed_of(totals.uvs), signed_of(totals.positions));
+}
+
+// Takes v/t/n or v//n behind one space, and goes to the space or line end behind it. False, and p where it
+// was, for other corners.
+[[gnu::always_inline]] inline bool take_whole_corner(MarkedText& p, __m128i most, Corner& corner) {
+  if (p.mark() != ' ' || p.text[p.at[1]] != '/' || p.text[p.at[2]] != '/') return false;
+  const MarkedText behind{p.text, p.at + 3};
+  __m128i indices;
+  if (!take_three_indices<true>(p, most, indices) || !behind.at_space_or_end()) return false;
+  const auto [v, t, n] = first_three(indices);
+  corner = {v, t, n};
+  p = behind;
+  return true;
+}
+
+// Takes v, v/t, v//n or v/t/n behind spaces, and goes to the space or line end behind it.
 [[gnu::always_inline]] inline bool take_corner(MarkedText& p, const ObjCounts& totals,
                                                const ObjCounts& so_far, Corner& corner) {
+  skip_spaces(p);
+  if (p.at_line_end()) return false;
   corner.t = corner.n = no_index;
-  if (p.text[p.at[1]] == '/' && p.text[p.at[2]] == '/') {
-    const MarkedText behind{p.text, p.at + 3};
-    const auto signed_of = [](std::uint64_t total) { return static_cast<int>(total); };
-    const __m128i most =
-        _mm_set_epi32(0, signed_of(totals.normals), signed_of(totals.uvs), signed_of(totals.positions));
-    if (__m128i indices; take_three_indices<true>(p, most, indices) && behind.at_space_or_end()) {
-      const auto [v, t, n] = first_three(indices);
-      corner = {v, t, n};
-      p = behind;
-      return true;
-    }
-  }
   if (!take_reference(p, totals.positions, so_far.positions, corner.v)) return false;
   if (p.mark() == '/') {
     if (p.place()[1] == '/')
@@ -81,11 +90,10 @@ template <std::size_t least, std::size_t most>
 // Three corners that end the line, as most faces have.
 bool ObjFiller::take_face(MarkedText& p) {
   const ObjCounts so_far = now_.before;
+  const __m128i most = corner_totals(totals_);
   std::array<Corner, 3> corners;
-  for (Corner& corner : corners) {
-    skip_spaces(p);
-    if (p.at_line_end() || !take_corner(p, totals_, so_far, corner)) return false;
-  }
+  for (Corner& corner : corners)
+    if (!take_whole_corner(p, most, corner) && !take_corner(p, totals_, so_far, corner)) return false;
   skip_spaces(p);
   if (!p.at_line_end()) return take_polygon(p, corners);
   if (!match(corners)) return false;
@@ -104,9 +112,11 @@ bool ObjFiller::take_face(MarkedText& p) {
 // Goes on behind the third corner.
 bool ObjFiller::take_polygon(MarkedText& p, std::span<const Corner> first) {
   corners_.assign(first.begin(), first.end());
+  const __m128i most = corner_totals(totals_);
   while (!p.at_line_end()) {
     Corner corner;
-    if (corners_.size() == max_face_corners || !take_corner(p, totals_, now_.before, corner)) return false;
+    if (corners_.size() == max_face_corners) return false;
+    if (!take_whole_corner(p, most, corner) && !take_corner(p, totals_, now_.before, corner)) return false;
     corners_.push_back(corner);
     skip_spaces(p);
   }
