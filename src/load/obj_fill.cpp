@@ -14,9 +14,10 @@ namespace {
 // Takes `least` numbers or as many more as there is room for, up to the line end.
 template <std::size_t least, std::size_t most>
 [[gnu::always_inline]] inline bool take_numbers(MarkedText& p, std::array<float, most>& numbers) {
-  skip_spaces(p);
+  if (p.length() == 0) skip_spaces(p);
   if (p.at_line_end()) return false;
   std::size_t count = take_pointed_numbers<least>(p, numbers.data()) ? least : 0;
+  if (count == least && p.mark() == '\n') return true;
   for (skip_spaces(p); !p.at_line_end(); skip_spaces(p)) {
     if (count == most || !take_number(p, numbers[count])) return false;
     ++count;
