@@ -12,7 +12,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 struct TileEntry {
   std::uint32_t child;
   std::uint32_t groups;
-  float near;
+  float near, order;
 };
 
 // All that a traversal carries.
@@ -327,16 +327,24 @@ FASTRT_INLINE void prefetch_child(const GeometryView& scene, std::uint32_t child
   for (int i = 0; i < lines; ++i) __builtin_prefetch(at + 64 * i);
 }
 
-// Puts the children that were touched onto the stack, the nearest on top.
+// What comes first is on top: of rays that look for the closest hit the nearest child, of others the largest
+// one, which is likeliest to hold something in their way.
+template <bool any>
+FASTRT_INLINE float order_of(const WideNode& node, float near, int child) {
+  return any ? -static_cast<float>(node.size[child]) : near;
+}
+
+// Puts the children that were touched onto the stack.
+template <bool any>
 FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode& node,
                                        const TouchedChildren& c, TileEntry* top) {
   TileEntry* const bottom = top;
   for (std::uint32_t bits = c.bits; bits != 0; bits &= bits - 1) {
     const int i = __builtin_ctz(bits);
     prefetch_child(scene, node.child[i]);
-    const TileEntry entry{node.child[i], c.groups[i], c.near[i]};
+    const TileEntry entry{node.child[i], c.groups[i], c.near[i], order_of<any>(node, c.near[i], i)};
     TileEntry* place = top++;
-    for (; place != bottom && place[-1].near < entry.near; --place) *place = place[-1];
+    for (; place != bottom && place[-1].order < entry.order; --place) *place = place[-1];
     *place = entry;
   }
   return top;
@@ -345,7 +353,7 @@ FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode
 template <bool any>
 FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
   TileEntry stack[max_tree_stack];
-  stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff()};
+  stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff(), 0.0F};
   TileEntry* top = stack + 1;
   TouchedChildren children;
   while (top != stack) {
@@ -360,7 +368,7 @@ FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
     const WideNode& node = tile.scene.nodes[entry.child];
     ++tile.nodes;
     touch_children(tile.view, node, groups, children);
-    top = push_children(tile.scene, node, children, top);
+    top = push_children<any>(tile.scene, node, children, top);
   }
 }
 
