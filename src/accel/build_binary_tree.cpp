@@ -50,6 +50,7 @@ public:
 
   BinaryTree build() {
     run_tasks(threads_, failure_, [&] { build_root(); });
+    boxes_ = other_ = {}; // all is in the nodes now, which take their place
     std::uint32_t next = 1;
     place(root_, 0, next);
     tree_.nodes.resize(next);
@@ -207,12 +208,19 @@ private:
 
 } // namespace
 
-BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings) {
+BinaryTree split_boxes(Column<PrimitiveBox>& boxes, const BuildSettings& settings) {
   if (boxes.empty()) return {};
   if (boxes.size() > std::size_t{max_blocks} * block_size)
     throw LimitError("too many primitives for one tree: " + std::to_string(boxes.size()));
-  BinaryTree tree = Builder(boxes, settings).build();
-  if (settings.quality == BvhQuality::high) reinsert_subtrees(tree, settings);
+  return Builder(boxes, settings).build();
+}
+
+BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings) {
+  BinaryTree tree = split_boxes(boxes, settings);
+  if (settings.quality == BvhQuality::high)
+    reinsert_subtrees(tree, settings);
+  else
+    reinsert_largest_subtrees(tree, settings);
   return tree;
 }
 

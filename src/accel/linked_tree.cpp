@@ -25,7 +25,6 @@ LinkedTree::LinkedTree(const BinaryTree& tree)
   }
 }
 
-// In double: no box that floats can hold runs out of them, and what a move brings is exact enough to add up.
 double LinkedTree::half_area(std::uint32_t node) const {
   const Node& n = nodes_[node];
   const double x = static_cast<double>(n.upper[0]) - static_cast<double>(n.lower[0]);
@@ -39,7 +38,7 @@ bool LinkedTree::can_move(std::uint32_t node, std::uint32_t target) const {
   int level = 0;
   for (std::uint32_t i = target; i != none; i = parents_[i], ++level)
     if (i == node) return false;
-  return level + std::max(heights_[node], heights_[target]) <= max_tree_depth;
+  return level + std::max(heights_[node], heights_[target]) <= max_depth_;
 }
 
 double LinkedTree::move(std::uint32_t node, std::uint32_t target) {

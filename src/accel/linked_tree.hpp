@@ -18,6 +18,9 @@ public:
   // they are moved.
   explicit LinkedTree(const BinaryTree& tree);
 
+  // No move makes the tree deeper than this; max_tree_depth at first.
+  void limit_depth(int max_depth) { max_depth_ = max_depth; }
+
   std::size_t size() const { return nodes_.size(); }
   bool is_leaf(std::uint32_t node) const { return nodes_[node].left == none; }
   std::uint32_t left(std::uint32_t node) const { return nodes_[node].left; }
@@ -34,8 +37,11 @@ public:
   // Neither the root nor its children can move.
   bool can_leave(std::uint32_t node) const { return parents_[node] != none && parents_[node] != root; }
 
-  // Whether `node` can become the sibling of `target` and the tree stays a tree of at most max_tree_depth
-  // levels.
+  // In double: no box that floats can hold runs out of them, and what moves bring is exact enough to add up.
+  double half_area(std::uint32_t node) const;
+
+  // Whether `node` can become the sibling of `target` and the tree stays a tree that is not
+  // too deep.
   bool can_move(std::uint32_t node, std::uint32_t target) const;
 
   // Takes `node` and its parent out, puts the parent where `target` is and both below it. Boxes are as tight
@@ -55,7 +61,6 @@ private:
     std::uint32_t right;
   };
 
-  double half_area(std::uint32_t node) const;
   void replace_child(std::uint32_t parent, std::uint32_t child, std::uint32_t other);
   double refit(std::uint32_t node);
   double refit_upwards(std::uint32_t node);
@@ -65,6 +70,7 @@ private:
   Column<Node> nodes_;
   Column<std::uint32_t> parents_;
   Column<std::uint8_t> heights_; // levels from the node down to its lowest leaf
+  int max_depth_ = max_tree_depth;
 };
 
 } // namespace fastrt

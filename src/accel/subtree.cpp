@@ -32,6 +32,37 @@ GroupedNode build_halves(const BuildContext& context, const BuildRange& range, N
   return make_node(range.bounds, first, 0, 0);
 }
 
+// Moves primitives to their sides, and into bins only if these are asked for.
+template <bool into_bins>
+void move(const BuildContext& context, const BuildRange& range, std::size_t begin, std::size_t end,
+          const BinSplit& split, const SplitSides& sides, Bins* const bins[2]) {
+  const PrimitiveBox* from = context.buffers[range.buffer];
+  PrimitiveBox* to = context.buffers[1 - range.buffer];
+  const BinMapping mapping(range.centroids);
+  const BinSplit plane = split; // a copy: no store can change it
+  std::size_t next[2] = {sides.next[0], sides.next[1]};
+  for (std::size_t i = begin; i < end; ++i) {
+    const __m128 lower_and_id = _mm_load_ps(from[i].lower), upper_and_group = _mm_load_ps(from[i].upper);
+    const LaneBox box = clear_fourth({lower_and_id, upper_and_group});
+    const __m128 centroid = doubled_centroid(box);
+    const std::size_t side = is_right(mapping.unclamped(centroid), plane);
+    PrimitiveBox& moved = to[next[side]++];
+    _mm_store_ps(moved.lower, lower_and_id);
+    _mm_store_ps(moved.upper, upper_and_group);
+    if constexpr (into_bins) bins[side]->add(box, sides.mappings[side](centroid));
+  }
+}
+
+// Small ranges need no bins.
+GroupedNode build_small_sides(const BuildContext& context, const BuildRange& range, const BinSplit& split,
+                              const SplitSides& sides, NodeList& list) {
+  move<false>(context, range, range.begin, range.end, split, sides, nullptr);
+  const std::uint32_t first = list.add_pair();
+  for (std::uint32_t side = 0; side < 2; ++side)
+    put_node(list, first + side, build_small_range(context, sides.ranges[side], list));
+  return make_node(range.bounds, first, 0, 0);
+}
+
 } // namespace
 
 void measure(const BuildContext& context, BuildRange& range) {
@@ -88,20 +119,7 @@ SplitSides split_sides(const BuildRange& range, const Bins& bins, const BinSplit
 
 void move_to_sides(const BuildContext& context, const BuildRange& range, std::size_t begin, std::size_t end,
                    const BinSplit& split, SplitSides& sides, Bins* const bins[2]) {
-  const PrimitiveBox* from = context.buffers[range.buffer];
-  PrimitiveBox* to = context.buffers[1 - range.buffer];
-  const BinMapping mapping(range.centroids);
-  std::size_t next[2] = {sides.next[0], sides.next[1]};
-  for (std::size_t i = begin; i < end; ++i) {
-    const __m128 lower_and_id = _mm_load_ps(from[i].lower), upper_and_group = _mm_load_ps(from[i].upper);
-    const LaneBox box = clear_fourth({lower_and_id, upper_and_group});
-    const __m128 centroid = doubled_centroid(box);
-    const std::size_t side = is_right(mapping.unclamped(centroid), split);
-    PrimitiveBox& moved = to[next[side]++];
-    _mm_store_ps(moved.lower, lower_and_id);
-    _mm_store_ps(moved.upper, upper_and_group);
-    bins[side]->add(box, sides.mappings[side](centroid));
-  }
+  move<true>(context, range, begin, end, split, sides, bins);
 }
 
 GroupedNode build_range(const BuildContext& context, const BuildRange& range, const Bins& bins,
@@ -118,6 +136,8 @@ GroupedNode build_range(const BuildContext& context, const BuildRange& range, co
   }
   if (split.axis < 0) return build_halves(context, range, list);
   SplitSides sides = split_sides(range, bins, split);
+  if (sides.ranges[0].size() <= small_range && sides.ranges[1].size() <= small_range)
+    return build_small_sides(context, range, split, sides, list);
   Bins left, right;
   Bins* const both[2] = {&left, &right};
   move_to_sides(context, range, range.begin, range.end, split, sides, both);

@@ -46,9 +46,13 @@ struct BuildSettings {
 };
 
 // A binary tree by binned SAH (Wald 2007) over boxes and centroids, whose cost counts runs of run_size
-// primitives, not primitives; of high quality, its nodes are then moved about, see reinsertion.hpp. Leaves
-// hold 1 .. block_size * max_leaf_blocks primitives of one group; at most max_tree_depth levels. Uses `boxes`
-// up: their values afterwards mean nothing. Boxes must be finite.
+// primitives, not primitives; nodes are in depth-first order. Leaves hold 1 .. block_size * max_leaf_blocks
+// primitives of one group; at most max_tree_depth levels. Uses `boxes` up: there are none afterwards. Boxes
+// must be finite.
+BinaryTree split_boxes(Column<PrimitiveBox>& boxes, const BuildSettings& settings);
+
+// The same, with nodes then moved about: of high quality all, otherwise the largest and only where it pays.
+// See reinsertion.hpp.
 BinaryTree build_binary_tree(Column<PrimitiveBox>& boxes, const BuildSettings& settings);
 
 // The wide tree: nodes in depth-first order, and for each group the primitive ids of its blocks, block_size a

@@ -18,6 +18,15 @@ using PacketI = Ints<widest>;
 using PacketM = Mask<widest>;
 inline constexpr std::uint32_t register_bits = (1U << (widest - 1)) * 2U - 1U;
 
+// Lanes that hold a live ray with a finite origin and a direction.
+FASTRT_INLINE PacketM traceable_lanes(const V3<PacketF>& origins, const V3<PacketF>& dirs, int live) {
+  const PacketF origin = ((abs(origins.x) + abs(origins.y)) + abs(origins.z)) * PacketF(0.0F);
+  const PacketF dir = (abs(dirs.x) + abs(dirs.y)) + abs(dirs.z);
+  const std::uint32_t bits = live >= widest ? register_bits : (1U << live) - 1U;
+  return (origin == PacketF(0.0F)) & (dir > PacketF(0.0F)) & (dir < PacketF(__builtin_inff())) &
+         from_bits<widest>(bits);
+}
+
 // Boxes are met as if larger by this share of the largest coordinate: what is left of it beyond the reach of
 // primitives covers the rounding of starts that are multiplied out.
 inline constexpr float lone_padding = 2.0F * box_padding;
@@ -37,7 +46,7 @@ struct LoneFields {
   // A plane lies at plane * inverse - start, as the ray meets boxes' near and far planes.
   F inverse[3], near_start[3], far_start[3];
   // Where the planes that the ray meets first lie among a node's columns, in floats; the others: ^ 8.
-  I near_planes[3];
+  I near_planes[3], far_planes[3];
   // The axes across the one that the ray follows most, and that one: as a block's columns, in floats.
   I across_x, across_y, along;
   F slope_x, slope_y; // the ray in space sheared along itself ..
@@ -49,7 +58,7 @@ struct alignas(64) LoneColumns : LoneFields<float[batch_size], std::int32_t[batc
   std::uint32_t ready; // bit g: group g is made
 };
 
-using LoneNumbers = LoneFields<float, std::int32_t>;
+using LoneNumbers = LoneFields<float, std::ptrdiff_t>;
 
 // Together, so that a ray under way keeps few lines of the cache busy.
 FASTRT_INLINE void copy_ray(const LoneColumns& from, std::ptrdiff_t i, LoneNumbers& to) {
@@ -58,6 +67,7 @@ FASTRT_INLINE void copy_ray(const LoneColumns& from, std::ptrdiff_t i, LoneNumbe
     to.near_start[axis] = from.near_start[axis][i];
     to.far_start[axis] = from.far_start[axis][i];
     to.near_planes[axis] = from.near_planes[axis][i];
+    to.far_planes[axis] = from.near_planes[axis][i] ^ wide_children;
   }
   to.across_x = from.across_x[i];
   to.across_y = from.across_y[i];

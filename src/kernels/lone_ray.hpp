@@ -4,13 +4,11 @@
 #pragma once
 
 #include "src/kernels/lone_columns.hpp"
+#include "src/kernels/lone_order.hpp"
 #include "src/kernels/shape_leaves.hpp"
 #include "src/kernels/sphere.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-// Children of a node are met all at once where eight lanes exist, else in two halves.
-inline constexpr int node_lanes = widest < wide_children ? widest : wide_children;
 
 // A ray that is on its way, with the closest hit so far. Plain numbers: a register is filled from memory as
 // fast as it is loaded.
@@ -19,21 +17,15 @@ struct LoneRay {
   const RayBatch* rays;
   std::ptrdiff_t index;
   float t_min;
-  float t, bound;      // the closest hit so far, and how far boxes still matter
-  float waiting_bound; // the same for boxes whose distance has lost its last eight bits
+  float t, bound; // the closest hit so far, and how far boxes still matter
+  Waiting limit;  // the same for what waits
   std::int32_t primitive;
 };
-
-// What a distance can grow by when its last eight bits are replaced: 2^-15 of it, or in the smallest of
-// numbers eight bits of these. (If it is not negative; others are not culled.)
-inline constexpr float waiting_slack = 0x1p-14F;
-inline constexpr float waiting_least = 0x1p-140F;
 
 FASTRT_INLINE void shorten(LoneRay& ray, float t, std::int32_t primitive) {
   ray.t = t;
   ray.bound = depth_bound(t);
-  ray.waiting_bound =
-      ray.t_min < 0.0F ? __builtin_inff() : (ray.bound + waiting_least) + ray.bound * waiting_slack;
+  ray.limit = waiting_limit(ray.bound, ray.t_min);
   ray.primitive = primitive;
 }
 
@@ -47,35 +39,23 @@ FASTRT_INLINE LoneRay lone_ray(const RayBatch& rays, const HitBatch& hits, int i
   return ray;
 }
 
-// Not finite or without direction: hits nothing.
-FASTRT_INLINE bool is_traceable(float ox, float oy, float oz, float dx, float dy, float dz) {
-  const float sum = ((__builtin_fabsf(ox) + __builtin_fabsf(oy)) + __builtin_fabsf(oz)) * 0.0F;
-  const float length = (__builtin_fabsf(dx) + __builtin_fabsf(dy)) + __builtin_fabsf(dz);
-  return sum == 0.0F && length > 0.0F && length < __builtin_inff();
-}
-
-// Which of the node's boxes the ray meets, and where.
-FASTRT_INLINE std::uint32_t meet_boxes(const LoneRay& ray, const WideNode& node, float* near) {
+// Which of the node's boxes the ray meets, and where: in half a node where registers hold four.
+FASTRT_INLINE BoxLanes meet_boxes(const LoneRay& ray, const WideNode& node, int half) {
   using N = Floats<node_lanes>;
   const LoneNumbers& own = ray.own;
-  std::uint32_t met = 0;
-  for (int half = 0; half < wide_children; half += node_lanes) {
-    const float* const columns = node.lower_x + half; // the six columns lie one after the other
-    const auto entry = [&](int axis) {
-      const std::ptrdiff_t planes = own.near_planes[axis];
-      return cull_mul_sub(load<N>(columns + planes), N(own.inverse[axis]), N(own.near_start[axis]));
-    };
-    const auto exit = [&](int axis) {
-      const std::ptrdiff_t planes = own.near_planes[axis] ^ wide_children;
-      return cull_mul_sub(load<N>(columns + planes), N(own.inverse[axis]), N(own.far_start[axis]));
-    };
-    // The running value goes second, like in intersect_slabs().
-    const N first = max(entry(0), max(entry(1), max(entry(2), N(ray.t_min))));
-    const N last = min(exit(0), min(exit(1), min(exit(2), N(ray.bound))));
-    first.store_aligned(near + half);
-    met |= to_bits(first <= last) << half;
-  }
-  return met;
+  const float* const columns = node.lower_x + half; // the six columns lie one after the other
+  const auto entry = [&](int axis) {
+    return cull_mul_sub(load<N>(columns + own.near_planes[axis]), N(own.inverse[axis]),
+                        N(own.near_start[axis]));
+  };
+  const auto exit = [&](int axis) {
+    return cull_mul_sub(load<N>(columns + own.far_planes[axis]), N(own.inverse[axis]),
+                        N(own.far_start[axis]));
+  };
+  // The running value goes second, like in intersect_slabs().
+  const N first = max(entry(0), max(entry(1), max(entry(2), N(ray.t_min))));
+  const N last = min(exit(0), min(exit(1), min(exit(2), N(ray.bound))));
+  return {first, first <= last};
 }
 
 // The triangles that lie around the ray, as seen along it. Only culls; what is left goes through the exact

@@ -39,15 +39,6 @@ FASTRT_INLINE Packet load_packet(const GeometryView& scene, const RayBatch& rays
   return p;
 }
 
-// Lanes that hold a live ray with a finite origin and a direction.
-FASTRT_INLINE PacketM traceable_lanes(const V3<PacketF>& origins, const V3<PacketF>& dirs, int live) {
-  const PacketF origin = ((abs(origins.x) + abs(origins.y)) + abs(origins.z)) * PacketF(0.0F);
-  const PacketF dir = (abs(dirs.x) + abs(dirs.y)) + abs(dirs.z);
-  const std::uint32_t bits = live >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << live) - 1U;
-  return (origin == PacketF(0.0F)) & (dir > PacketF(0.0F)) & (dir < PacketF(__builtin_inff())) &
-         from_bits<widest>(bits);
-}
-
 // Takes hits at `t` of one primitive for the lanes in `hit`: smallest t first, then smallest id. Returns the
 // lanes that took it.
 FASTRT_INLINE std::uint32_t keep_closest(PacketF& best_t, PacketI& best_primitive, const PacketI& exclude,

@@ -14,6 +14,20 @@ namespace fastrt {
 
 static_assert(std::endian::native == std::endian::little, "eight digits are read as one integer");
 
+inline std::uint64_t load_eight(const char* p) {
+  std::uint64_t text = 0;
+  std::memcpy(&text, p, sizeof text);
+  return text;
+}
+
+// The value of eight digits, each a number in a byte, the first one lowest.
+[[gnu::always_inline]] inline std::uint32_t value_of_digits(std::uint64_t x) {
+  x = x * 10 + (x >> 8U);
+  constexpr std::uint64_t pairs = 0x000000FF000000FFU;
+  x = ((x & pairs) * 0x000F424000000064U + ((x >> 16U) & pairs) * 0x0000271000000001U) >> 32U;
+  return static_cast<std::uint32_t>(x);
+}
+
 // The digits at the start of eight characters: how many, and their value.
 struct DigitRun {
   int count;
@@ -21,18 +35,13 @@ struct DigitRun {
 };
 
 [[gnu::always_inline]] inline DigitRun take_digits(const char* p) {
-  std::uint64_t text = 0;
-  std::memcpy(&text, p, sizeof text);
+  const std::uint64_t text = load_eight(p);
   const std::uint64_t digits = text - 0x3030303030303030U;
   // The high bit of a byte ends up set if it is below '0' or above '9'; a borrow only spoils later bytes.
   const std::uint64_t others = ((text + 0x4646464646464646U) | digits | text) & 0x8080808080808080U;
   const int count = std::countr_zero(others) / 8;
   const unsigned half_shift = 32U - 4U * static_cast<unsigned>(count); // in two steps: 64 at once is too far
-  std::uint64_t x = (digits << half_shift) << half_shift;
-  x = x * 10 + (x >> 8U);
-  constexpr std::uint64_t pairs = 0x000000FF000000FFU;
-  x = ((x & pairs) * 0x000F424000000064U + ((x >> 16U) & pairs) * 0x0000271000000001U) >> 32U;
-  return {count, static_cast<std::uint32_t>(x)};
+  return {count, value_of_digits((digits << half_shift) << half_shift)};
 }
 
 // p + count, by branches: the processor guesses the usual counts and goes on without waiting for the digits.

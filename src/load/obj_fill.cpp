@@ -1,151 +1,129 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/obj_fill.hpp"
 
-#include "src/load/number.hpp"
-#include "src/load/text.hpp"
+#include "src/load/marked_text.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace fastrt {
 
 namespace {
 
-// The fast way knows no other blank than spaces.
-[[gnu::always_inline]] inline const char* skip_spaces(const char* p) {
-  while (*p == ' ') ++p;
-  return p;
-}
-
-// Takes `least` numbers or as many more as there is room for, and the spaces up to the line end.
-template <std::size_t most>
-[[gnu::always_inline]] inline bool take_numbers(const char*& p, std::size_t least,
-                                                std::array<float, most>& numbers) {
-  const char* q = p;
-  for (std::size_t count = 0; count != most; ++count) {
-    q = skip_spaces(q);
-    if (count >= least && is_line_end(*q)) break;
-    if (!take_float(q, numbers[count])) return false;
-    if (*q != ' ' && count + 1 < least) return false;
-    if (*q != ' ' && !is_line_end(*q)) return false;
+// Takes `least` numbers or as many more as there is room for, up to the line end.
+template <std::size_t least, std::size_t most>
+[[gnu::always_inline]] inline bool take_numbers(MarkedText& p, std::array<float, most>& numbers) {
+  if (p.length() == 0) skip_spaces(p);
+  if (p.at_line_end()) return false;
+  std::size_t count = take_pointed_numbers<least>(p, numbers.data()) ? least : 0;
+  if (count == least && p.mark() == '\n') return true;
+  for (skip_spaces(p); !p.at_line_end(); skip_spaces(p)) {
+    if (count == most || !take_number(p, numbers[count])) return false;
+    ++count;
   }
-  p = skip_spaces(q);
-  return is_line_end(*p);
+  return count >= least;
 }
 
-// Takes "17" or "-3" at p as an index from 0. `so_far`: how many there are before this line.
-[[gnu::always_inline]] inline bool take_reference(const char*& p, std::uint64_t total, std::uint64_t so_far,
-                                                  std::uint32_t& index) {
-  std::uint32_t value = 0;
-  if (*p != '-') {
-    if (!take_index(p, value)) return false;
-    index = value - 1U;
-    return index < total;
-  }
-  ++p;
-  if (!take_index(p, value)) return false;
-  index = static_cast<std::uint32_t>(so_far) - value;
-  return index < so_far;
+[[gnu::always_inline]] inline std::array<std::uint32_t, 3> first_three(__m128i lanes) {
+  std::array<std::uint32_t, 4> all;
+  std::memcpy(all.data(), &lanes, sizeof all);
+  return {all[0], all[1], all[2]};
 }
 
-// Takes v, v/t, v//n or v/t/n.
-[[gnu::always_inline]] inline bool take_corner(const char*& p, const ObjCounts& totals,
+// How many of what the three numbers of a corner count there are.
+inline __m128i corner_totals(const ObjCounts& totals) {
+  const auto signed_of = [](std::uint64_t total) { return static_cast<int>(total); };
+  return _mm_set_epi32(0, signed_of(totals.normals), signed_of(totals.uvs), signed_of(totals.positions));
+}
+
+// Takes v/t/n or v//n behind one space, and goes to the space or line end behind it. False, and p where it
+// was, for other corners.
+[[gnu::always_inline]] inline bool take_whole_corner(MarkedText& p, __m128i most, Corner& corner) {
+  if (p.mark() != ' ' || p.text[p.at[1]] != '/' || p.text[p.at[2]] != '/') return false;
+  const MarkedText behind{p.text, p.at + 3};
+  __m128i indices;
+  if (!take_three_indices<true>(p, most, indices) || !behind.at_space_or_end()) return false;
+  const auto [v, t, n] = first_three(indices);
+  corner = {v, t, n};
+  p = behind;
+  return true;
+}
+
+// Takes v, v/t, v//n or v/t/n behind spaces, and goes to the space or line end behind it.
+[[gnu::always_inline]] inline bool take_corner(MarkedText& p, const ObjCounts& totals,
                                                const ObjCounts& so_far, Corner& corner) {
+  skip_spaces(p);
+  if (p.at_line_end()) return false;
   corner.t = corner.n = no_index;
   if (!take_reference(p, totals.positions, so_far.positions, corner.v)) return false;
-  if (*p == '/') {
-    ++p;
-    if (*p != '/' && !take_reference(p, totals.uvs, so_far.uvs, corner.t)) return false;
-    if (*p == '/') {
-      ++p;
-      if (!take_reference(p, totals.normals, so_far.normals, corner.n)) return false;
-    }
+  if (p.mark() == '/') {
+    if (p.place()[1] == '/')
+      ++p.at;
+    else if (!take_reference(p, totals.uvs, so_far.uvs, corner.t))
+      return false;
+    if (p.mark() == '/' && !take_reference(p, totals.normals, so_far.normals, corner.n)) return false;
   }
-  return *p == ' ' || is_line_end(*p);
+  return p.at_space_or_end();
 }
 
 } // namespace
 
-inline void ObjFiller::put_state(std::uint64_t i) {
-  desc_.triangles.material[i] = now_.material;
-  desc_.triangles.object[i] = now_.object;
-  if (smoothing_ != nullptr) (*smoothing_)[i] = now_.smoothing;
-}
-
-// Three bare vertex indices that end the line, in a file whose faces have nothing else.
-[[gnu::always_inline]] inline bool ObjFiller::take_bare_face(const char*& next) {
-  const char* p = next;
+// Three bare vertex indices behind one space each, in a file whose faces have nothing else.
+[[gnu::always_inline]] inline bool ObjFiller::take_bare_face(MarkedText& next) {
+  MarkedText p = next;
   const std::uint64_t i = now_.before.triangles;
-  std::array<std::uint32_t, 3> v;
-  for (std::uint32_t& index : v) {
-    p = skip_spaces(p);
-    if (!take_reference(p, totals_.positions, now_.before.positions, index)) return false;
-    if (*p != ' ' && !is_line_end(*p)) return false;
-  }
-  p = skip_spaces(p);
-  if (!is_line_end(*p) || i == last_.triangles) return false;
+  const __m128i most = _mm_set1_epi32(static_cast<int>(totals_.positions));
+  __m128i indices;
+  if (p.text[p.at[1]] != ' ' || p.text[p.at[2]] != ' ' || i == last_.triangles) return false;
+  if (!take_three_indices<false>(p, most, indices)) return false;
+  p.at += 3;
+  if (p.mark() != '\n') skip_spaces(p);
+  if (!p.at_line_end()) return false;
   TriangleColumns& rows = desc_.triangles;
-  rows.v0[i] = v[0], rows.v1[i] = v[1], rows.v2[i] = v[2];
-  put_state(i);
+  const auto [a, b, c] = first_three(indices);
+  rows.v0[i] = a, rows.v1[i] = b, rows.v2[i] = c;
   now_.before.triangles = i + 1;
   next = p;
   return true;
 }
 
 // Three corners that end the line, as most faces have.
-bool ObjFiller::take_face(const char*& next) {
-  const char* p = next;
+bool ObjFiller::take_face(MarkedText& p) {
   const ObjCounts so_far = now_.before;
+  const __m128i most = corner_totals(totals_);
   std::array<Corner, 3> corners;
-  for (Corner& corner : corners) {
-    p = skip_spaces(p);
-    if (!take_corner(p, totals_, so_far, corner)) return false;
-  }
-  p = skip_spaces(p);
-  next = p;
-  if (!is_line_end(*p)) return take_polygon(next, corners);
+  for (Corner& corner : corners)
+    if (!take_whole_corner(p, most, corner) && !take_corner(p, totals_, so_far, corner)) return false;
+  skip_spaces(p);
+  if (!p.at_line_end()) return take_polygon(p, corners);
   if (!match(corners)) return false;
   put_face(corners);
   return true;
 }
 
+// The same where `p` had better stay in registers.
+[[gnu::always_inline]] inline bool ObjFiller::take_any_face(MarkedText& p) {
+  MarkedText copy = p;
+  if (!take_face(copy)) return false;
+  p = copy;
+  return true;
+}
+
 // Goes on behind the third corner.
-bool ObjFiller::take_polygon(const char*& p, std::span<const Corner> first) {
+bool ObjFiller::take_polygon(MarkedText& p, std::span<const Corner> first) {
   corners_.assign(first.begin(), first.end());
-  while (!is_line_end(*p)) {
+  const __m128i most = corner_totals(totals_);
+  while (!p.at_line_end()) {
     Corner corner;
-    if (corners_.size() == max_face_corners || !take_corner(p, totals_, now_.before, corner)) return false;
+    if (corners_.size() == max_face_corners) return false;
+    if (!take_whole_corner(p, most, corner) && !take_corner(p, totals_, now_.before, corner)) return false;
     corners_.push_back(corner);
-    p = skip_spaces(p);
+    skip_spaces(p);
   }
   if (!match(corners_)) return false;
   put_face(corners_);
   return true;
-}
-
-void ObjFiller::put_position(std::span<const float> numbers) {
-  const std::uint64_t i = now_.before.positions;
-  if (i == last_.positions) source_.fail_changed();
-  desc_.positions.x[i] = numbers[0];
-  desc_.positions.y[i] = numbers[1];
-  desc_.positions.z[i] = numbers[2];
-  now_.before.positions = i + 1;
-}
-
-void ObjFiller::put_normal(std::span<const float> numbers) {
-  const std::uint64_t i = now_.before.normals;
-  if (i == last_.normals) source_.fail_changed();
-  desc_.normals.x[i] = numbers[0];
-  desc_.normals.y[i] = numbers[1];
-  desc_.normals.z[i] = numbers[2];
-  now_.before.normals = i + 1;
-}
-
-void ObjFiller::put_uv(std::span<const float> numbers) {
-  const std::uint64_t i = now_.before.uvs;
-  if (i == last_.uvs) source_.fail_changed();
-  desc_.uvs.x[i] = numbers[0];
-  desc_.uvs.y[i] = numbers[1];
-  now_.before.uvs = i + 1;
 }
 
 // As a fan for now: its corners are those of the first triangle and then the last one of each.
@@ -163,37 +141,58 @@ void ObjFiller::put_face(std::span<const Corner> corners) {
     rows.v0[i] = a.v, rows.v1[i] = b.v, rows.v2[i] = c.v;
     if (plan_.has_normals) rows.n0[i] = a.n, rows.n1[i] = b.n, rows.n2[i] = c.n;
     if (plan_.has_uvs) rows.t0[i] = a.t, rows.t1[i] = b.t, rows.t2[i] = c.t;
-    put_state(i);
   }
   now_.before.triangles = first + count;
   result_->uses_normals |= corners[0].n != no_index;
   result_->uses_uvs |= corners[0].t != no_index;
 }
 
-[[gnu::always_inline]] inline bool ObjFiller::take_plain(const char*& next) {
-  const char* p = next;
-  if (p[0] == 'f' && is_blank(p[1])) {
-    p += 2;
-    if (!(bare_faces_ && take_bare_face(p)) && !take_face(p)) return false;
-  } else if (p[0] == 'v' && is_blank(p[1])) {
-    std::array<float, 3> numbers;
-    p += 2;
-    if (!take_numbers(p, 3, numbers)) return false;
+// The line at `line`, whose first mark is at p. Goes to its end.
+[[gnu::always_inline]] inline bool ObjFiller::take_plain(const char* line, MarkedText& p) {
+  const std::ptrdiff_t length = p.place() - line; // of the keyword, if it is one
+  if (p.mark() != ' ' && !is_blank(p.mark())) return false;
+  if (length == 1 && line[0] == 'f') return (bare_faces_ && take_bare_face(p)) || take_any_face(p);
+  if (line[0] != 'v') return false;
+  if (length == 1) {
+    std::array<float, 8> numbers; // weight and colours too
+    if (!take_numbers<3>(p, numbers)) return false;
     put_position(numbers);
-  } else if (p[0] == 'v' && (p[1] == 'n' || p[1] == 't') && is_blank(p[2])) {
-    std::array<float, 3> numbers{};
-    const bool is_normal = p[1] == 'n';
-    p += 3;
-    if (!take_numbers(p, is_normal ? 3 : 2, numbers)) return false;
-    if (is_normal && numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) return false;
-    if (is_normal)
-      put_normal(numbers);
-    else
-      put_uv(numbers);
-  } else {
-    return false;
+    return true;
   }
-  next = p;
+  const bool is_normal = line[1] == 'n';
+  if (length != 2 || (!is_normal && line[1] != 't')) return false;
+  std::array<float, 3> numbers{};
+  if (!(is_normal ? take_numbers<3>(p, numbers) : take_numbers<2>(p, numbers))) return false;
+  if (!is_normal)
+    put_uv(numbers);
+  else if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0)
+    return false;
+  else
+    put_normal(numbers);
+  return true;
+}
+
+// Takes the lines from p on whose ends are among the marks; one at least. False after an error.
+bool ObjFiller::take_lines(char*& next, char* limit) {
+  char* const text = next;
+  marks_.find(text, limit + 1); // a line feed stands there
+  const std::uint16_t* last = marks_.end();
+  while (last != marks_.begin() && !is_line_end(text[last[-1]])) --last;
+  if (last == marks_.begin()) return read_line(next, limit);
+  char* const behind = text + last[-1] + 1;
+  MarkedText p{text, marks_.begin()};
+  for (char* line = text; line < behind;) {
+    if (p.place() == line && (p.at_line_end() || is_blank(p.mark()))) {
+      ++line, ++p.at;
+    } else if (MarkedText end = p; take_plain(line, end)) {
+      line = text + end.at[0] + 1;
+      p.at = end.at + 1;
+    } else {
+      if (!read_line(line, limit)) return false;
+      while (p.at != marks_.end() && p.place() < line) ++p.at;
+    }
+    next = line;
+  }
   return true;
 }
 
@@ -206,23 +205,15 @@ void ObjFiller::fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& st
   last_ += counts;
   totals_ = plan_.totals;
   bare_faces_ = !plan_.has_normals && !plan_.has_uvs;
-  material_since_ = start.before.triangles;
+  state_since_ = start.before.triangles;
   result_ = &result;
-  char* p = buffer.begin();
-  while (p < buffer.end()) {
-    if (is_line_end(*p) || (!with_care && is_blank(*p))) {
-      ++p;
-    } else if (const char* q = p; !with_care && take_plain(q)) {
-      p += q - p;
-    } else if (!read_line(p, buffer.end())) {
-      return;
-    }
-  }
+  for (char* p = buffer.begin(); p < buffer.end();)
+    if (!(with_care ? read_line(p, buffer.end()) : take_lines(p, buffer.end()))) return;
   if (chunk.torn) {
     result.log.fail(line_offset_, "line too long: more than 1 MiB with its continuations");
     return;
   }
-  note_material();
+  put_state();
   const ObjCounts& done = now_.before;
   const bool complete = done.positions == last_.positions && done.normals == last_.normals &&
                         done.uvs == last_.uvs && done.triangles == last_.triangles;

@@ -2,6 +2,7 @@
 // The second pass over an OBJ file: a chunk's statements into the scene's columns.
 #pragma once
 
+#include "src/load/digit_marks.hpp"
 #include "src/load/obj_plan.hpp"
 
 #include <fastrt/scene.hpp>
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace fastrt {
+
+struct MarkedText;
 
 struct Corner {
   std::uint32_t v, t, n;
@@ -38,11 +41,14 @@ public:
             bool with_care, ObjChunkResult& result);
 
 private:
-  // The fast way: false, and nothing done, for everything that is not plain. Else `next` is at the line end.
-  bool take_plain(const char*& next);
-  bool take_bare_face(const char*& next);
-  bool take_face(const char*& next);
-  bool take_polygon(const char*& p, std::span<const Corner> first);
+  bool take_lines(char*& p, char* limit);
+
+  // The fast way: false, and nothing done, for everything that is not plain. Else p is at the line end.
+  bool take_plain(const char* line, MarkedText& p);
+  bool take_bare_face(MarkedText& next);
+  bool take_any_face(MarkedText& p);
+  bool take_face(MarkedText& p);
+  bool take_polygon(MarkedText& p, std::span<const Corner> first);
 
   // The careful way: knows everything and says what is wrong. False after an error.
   bool read_line(char*& p, char* limit);
@@ -53,7 +59,6 @@ private:
   bool read_reference(std::string_view text, std::uint64_t offset, int which, std::uint32_t& index);
   void read_state(std::string_view keyword, std::string_view rest);
   void use_material(std::string_view name);
-  void note_material();
   void start_object(std::string_view name);
   void warn_about_keyword(std::string_view keyword);
 
@@ -61,7 +66,7 @@ private:
   void put_normal(std::span<const float> numbers);
   void put_uv(std::span<const float> numbers);
   void put_face(std::span<const Corner> corners);
-  void put_state(std::uint64_t i);
+  void put_state();
   std::uint64_t offset_of(const char* p) const {
     return chunk_begin_ + static_cast<std::uint64_t>(p - text_);
   }
@@ -77,11 +82,38 @@ private:
   std::uint64_t line_offset_ = 0;
   ObjState now_; // `before` counts what has been read so far
   ObjCounts totals_;
-  bool bare_faces_ = false;          // no face has texture coordinates or normals
-  ObjCounts last_;                   // what `before` will be at the chunk's end
-  std::uint64_t material_since_ = 0; // the first triangle of the current material
+  bool bare_faces_ = false;       // no face has texture coordinates or normals
+  ObjCounts last_;                // what `before` will be at the chunk's end
+  std::uint64_t state_since_ = 0; // the first triangle whose material, object and smoothing are not put yet
   ObjChunkResult* result_ = nullptr;
   std::vector<Corner> corners_;
+  DigitMarks marks_;
 };
+
+inline void ObjFiller::put_position(std::span<const float> numbers) {
+  const std::uint64_t i = now_.before.positions;
+  if (i == last_.positions) source_.fail_changed();
+  desc_.positions.x[i] = numbers[0];
+  desc_.positions.y[i] = numbers[1];
+  desc_.positions.z[i] = numbers[2];
+  now_.before.positions = i + 1;
+}
+
+inline void ObjFiller::put_normal(std::span<const float> numbers) {
+  const std::uint64_t i = now_.before.normals;
+  if (i == last_.normals) source_.fail_changed();
+  desc_.normals.x[i] = numbers[0];
+  desc_.normals.y[i] = numbers[1];
+  desc_.normals.z[i] = numbers[2];
+  now_.before.normals = i + 1;
+}
+
+inline void ObjFiller::put_uv(std::span<const float> numbers) {
+  const std::uint64_t i = now_.before.uvs;
+  if (i == last_.uvs) source_.fail_changed();
+  desc_.uvs.x[i] = numbers[0];
+  desc_.uvs.y[i] = numbers[1];
+  now_.before.uvs = i + 1;
+}
 
 } // namespace fastrt

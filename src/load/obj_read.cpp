@@ -171,6 +171,7 @@ bool ObjFiller::read_reference(std::string_view text, std::uint64_t offset, int 
 }
 
 void ObjFiller::read_state(std::string_view keyword, std::string_view rest) {
+  put_state();
   if (keyword == "usemtl") {
     use_material(name_in(rest));
   } else if (keyword == "o" || keyword == "g") {
@@ -188,15 +189,21 @@ void ObjFiller::read_state(std::string_view keyword, std::string_view rest) {
   }
 }
 
-// To be called when the material changes and at the end.
-void ObjFiller::note_material() {
-  const bool used = now_.before.triangles != material_since_;
-  result_->uses_default_material |= used && now_.material == plan_.default_material;
-  material_since_ = now_.before.triangles;
+// What is current holds for the triangles since the last change. To be called before the next one, and at the
+// end.
+void ObjFiller::put_state() {
+  const std::uint64_t first = state_since_, last = now_.before.triangles;
+  if (first == last) return;
+  TriangleColumns& rows = desc_.triangles;
+  std::fill(rows.material.begin() + first, rows.material.begin() + last, now_.material);
+  std::fill(rows.object.begin() + first, rows.object.begin() + last, now_.object);
+  if (smoothing_ != nullptr)
+    std::fill(smoothing_->begin() + first, smoothing_->begin() + last, now_.smoothing);
+  result_->uses_default_material |= now_.material == plan_.default_material;
+  state_since_ = last;
 }
 
 void ObjFiller::use_material(std::string_view name) {
-  note_material();
   const auto found = plan_.materials.find(name);
   now_.material = found == plan_.materials.end() ? plan_.default_material : found->second;
   if (found != plan_.materials.end()) return;

@@ -23,7 +23,8 @@ namespace {
 
 class ObjReader {
 public:
-  ObjReader(const Source& source, const ObjReaderSettings& settings) : source_(source), settings_(settings) {}
+  ObjReader(const Source& source, const ObjReaderSettings& settings)
+      : source_(source), settings_(settings), buffers_(static_cast<std::size_t>(settings.threads)) {}
 
   SceneDesc run(Diagnostics& diagnostics) {
     chunks_ = cut_into_chunks(source_, settings_.chunk_bytes, settings_.threads);
@@ -52,6 +53,7 @@ private:
 
   const Source& source_;
   const ObjReaderSettings& settings_;
+  std::vector<ChunkBuffer> buffers_; // of each thread
   std::vector<Chunk> chunks_;
   std::vector<ObjSummary> summaries_; // of each chunk, like the next two
   std::vector<ObjState> states_;
@@ -65,10 +67,9 @@ private:
 
 void ObjReader::scan() {
   summaries_.resize(chunks_.size());
-  std::vector<ChunkBuffer> buffers(static_cast<std::size_t>(settings_.threads));
   parallel_for(chunks_.size(), settings_.threads, [&](std::size_t i, std::size_t thread) {
-    buffers[thread].read(source_, chunks_[i]);
-    summaries_[i] = scan_obj(buffers[thread], chunks_[i].begin);
+    buffers_[thread].read(source_, chunks_[i]);
+    summaries_[i] = scan_obj(buffers_[thread], chunks_[i].begin);
   });
 }
 
@@ -149,14 +150,13 @@ void ObjReader::allocate() {
 
 void ObjReader::fill() {
   results_.resize(chunks_.size());
-  std::vector<ChunkBuffer> buffers(static_cast<std::size_t>(settings_.threads));
   std::atomic<std::size_t> first_failed{chunks_.size()};
   parallel_for(chunks_.size(), settings_.threads, [&](std::size_t i, std::size_t thread) {
     if (i > first_failed.load(std::memory_order_relaxed)) return;
-    buffers[thread].read(source_, chunks_[i]);
+    buffers_[thread].read(source_, chunks_[i]);
     const bool with_care = summaries_[i].needs_care || chunks_[i].torn;
     ObjFiller(source_, plan_, desc_, plan_.has_smoothing ? &smoothing_ : nullptr)
-        .fill(buffers[thread], chunks_[i], states_[i], summaries_[i].counts, with_care, results_[i]);
+        .fill(buffers_[thread], chunks_[i], states_[i], summaries_[i].counts, with_care, results_[i]);
     if (!results_[i].log.failed()) return;
     std::size_t known = first_failed.load();
     while (i < known && !first_failed.compare_exchange_weak(known, i)) {

@@ -44,28 +44,43 @@ unsigned count_bits(std::uint64_t bits) {
   return static_cast<unsigned>((bits * 0x0101010101010101U) >> 56U);
 }
 
+enum class LineKind { blank, position, normal, uv, face, comment, other };
+
 bool ends_word(char c) { return is_blank(c) || is_line_end(c); }
+
+// Of a line whose first word is there.
+[[gnu::always_inline]] inline LineKind kind_of(const char* word) {
+  if (word[1] == ' ' && word[0] == 'f') return LineKind::face;
+  if (word[1] == ' ' && word[0] == 'v') return LineKind::position;
+  if (word[0] == 'f' && ends_word(word[1])) return LineKind::face;
+  if (word[0] == '#') return LineKind::comment;
+  if (word[0] != 'v') return LineKind::other;
+  if (ends_word(word[1])) return LineKind::position;
+  if (!ends_word(word[2])) return LineKind::other;
+  return word[1] == 'n' ? LineKind::normal : word[1] == 't' ? LineKind::uv : LineKind::other;
+}
 
 // A line as far as it has been seen.
 struct LineSoFar {
   char* begin;
-  char* word = nullptr; // the first one
-  std::size_t words = 0;
-  bool marked = false;
+  LineKind kind = LineKind::blank;
+  std::size_t words = 0; // of a face
 };
 
 class ObjScan {
 public:
   ObjScan(ChunkBuffer& buffer, std::uint64_t chunk_begin)
-      : begin_(buffer.begin()), end_(buffer.end()), chunk_begin_(chunk_begin) {}
+      : begin_(buffer.begin()), end_(buffer.end()), chunk_begin_(chunk_begin), line_{begin_} {}
 
   ObjSummary run() {
     ByteTraces traces;
-    line_.begin = begin_;
     // The line feed behind the text ends the last line.
-    for (char* block = begin_; block <= end_;) block = scan_block(block, masks_of(block, traces));
-    if (_mm_movemask_epi8(traces.nuls) != 0) summary_.needs_care = true;
-    summary_.has_slash = _mm_movemask_epi8(traces.slashes) != 0;
+    for (char* block = begin_; block <= end_;) {
+      const ByteMasks masks = masks_of(block, traces);
+      block = masks.has_comment ? scan_block<true>(block, masks) : scan_block<false>(block, masks);
+    }
+    if (traces.has_nul()) summary_.needs_care = true;
+    summary_.has_slash = traces.has_slash();
     note_faces_before(summary_.counts.objects, summary_.face_before_object);
     note_faces_before(summary_.counts.groups, summary_.face_before_group);
     if (last_material_.data() != nullptr) summary_.material.emplace(last_material_);
@@ -74,49 +89,51 @@ public:
 
 private:
   // Returns where the next block begins: 64 bytes on, or behind a line that was read some other way.
+  template <bool has_comment>
   char* scan_block(char* block, const ByteMasks& masks) {
     const std::uint64_t starts = ~masks.blanks & ((masks.blanks << 1U) | (after_blank_ ? 1U : 0U));
-    after_blank_ = (masks.blanks >> 63U) != 0;
+    const std::uint64_t comments = has_comment ? comments_of(block) : 0;
     LineSoFar line = line_;
-    std::uint64_t left = ~std::uint64_t{0}; // of the block
+    // False for what is not a plain vertex, face or comment.
     const auto add = [&](std::uint64_t part) {
-      const std::uint64_t here = starts & part;
-      if (line.word == nullptr && here != 0) line.word = block + std::countr_zero(here);
-      line.words += count_bits(here);
-      line.marked |= (masks.marks & part) != 0;
+      const std::uint64_t words = starts & part;
+      if (line.kind == LineKind::blank && words != 0) line.kind = kind_of(block + std::countr_zero(words));
+      if (line.kind == LineKind::face) line.words += count_bits(words);
+      return line.kind != LineKind::other &&
+             (!has_comment || (comments & part) == 0 || line.kind == LineKind::comment);
     };
+    std::uint64_t left = ~std::uint64_t{0}; // of the block
     for (std::uint64_t ends = masks.line_ends; ends != 0; ends &= ends - 1) {
+      const std::uint64_t upto = ends ^ (ends - 1);
       char* const end = block + std::countr_zero(ends);
-      add(left & (ends ^ (ends - 1)));
-      if (line.word != nullptr && !count_plain(line, end)) return read_statement(line.begin);
-      count_line_end(end);
-      left &= ~(ends ^ (ends - 1));
+      if (!add(left & upto) || (end[-1] == '\\' && line.kind != LineKind::comment))
+        return read_statement(line.begin);
+      count_line(line, end);
+      left &= ~upto;
       line = {end + 1};
     }
-    add(left);
+    if (!add(left)) return read_statement(line.begin);
+    after_blank_ = (masks.blanks >> 63U) != 0;
+    // With care, then, if it may be too long.
+    if (block + 128 - line.begin > static_cast<std::ptrdiff_t>(max_line_bytes)) summary_.needs_care = true;
     line_ = line;
     return block + 64;
   }
 
-  // False for what is not a plain vertex, face or comment.
-  bool count_plain(const LineSoFar& line, const char* end) {
-    if (end - line.begin > static_cast<std::ptrdiff_t>(max_line_bytes)) summary_.needs_care = true;
-    const char* word = line.word;
-    if (*word == '#') return true;
-    if (line.marked) return false;
-    if (*word == 'f' && ends_word(word[1])) {
-      summary_.counts.triangles += line.words < 3 ? 0 : line.words - 3;
-      return true;
-    }
-    if (*word != 'v') return false;
-    const std::size_t length = ends_word(word[1]) ? 1 : 2;
-    if (length == 1 || ends_word(word[2])) count_vertex({word, length});
-    return true;
-  }
-
-  // A carriage return and a line feed are one; those behind the text are none.
-  void count_line_end(const char* p) {
-    if (p < end_ && !(p[0] == '\n' && p[-1] == '\r')) ++summary_.lines;
+  void count_line(const LineSoFar& line, const char* end) {
+    ObjCounts& counts = summary_.counts;
+    if (line.kind == LineKind::face)
+      counts.triangles += line.words < 3 ? 0 : line.words - 3;
+    else if (line.kind == LineKind::position)
+      ++counts.positions;
+    else if (line.kind == LineKind::normal)
+      ++counts.normals;
+    else if (line.kind == LineKind::uv)
+      ++counts.uvs;
+    // A carriage return and a line feed are one, and between them is a blank line; those behind the text are
+    // none.
+    const bool goes_on = line.kind == LineKind::blank && end[0] == '\n' && end[-1] == '\r';
+    if (end < end_ && !goes_on) ++summary_.lines;
   }
 
   void count_vertex(std::string_view keyword) {
@@ -168,7 +185,7 @@ private:
   char* end_;
   std::uint64_t chunk_begin_;
   ObjSummary summary_;
-  LineSoFar line_{};
+  LineSoFar line_;
   bool after_blank_ = true; // whether the byte before the block is one
   std::string_view last_material_;
 };

@@ -3,10 +3,37 @@
 
 #include "src/load/text.hpp"
 
+#include <emmintrin.h>
+
 #include <algorithm>
-#include <cmath>
 
 namespace fastrt {
+
+namespace {
+
+inline __m128 load_position(const SceneDesc& desc, std::uint32_t v) {
+  return _mm_setr_ps(desc.positions.x[v], desc.positions.y[v], desc.positions.z[v], 0.0F);
+}
+
+template <int lane>
+inline __m128 from_lane(__m128 v) {
+  return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 3, 3, lane));
+}
+
+inline __m128 to_yzx(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 0, 2, 1)); }
+
+// |x| + |y| + |z| of the very cross product that shading normalises later: 0 and overflow have no normal.
+inline float normal_size(const SceneDesc& desc, std::size_t i) {
+  const TriangleColumns& rows = desc.triangles;
+  const __m128 a = load_position(desc, rows.v0[i]);
+  const __m128 b = _mm_sub_ps(load_position(desc, rows.v1[i]), a);
+  const __m128 c = _mm_sub_ps(load_position(desc, rows.v2[i]), a);
+  const __m128 zxy = _mm_sub_ps(_mm_mul_ps(b, to_yzx(c)), _mm_mul_ps(c, to_yzx(b)));
+  const __m128 sizes = _mm_andnot_ps(_mm_set1_ps(-0.0F), zxy);
+  return _mm_cvtss_f32(_mm_add_ss(_mm_add_ss(from_lane<1>(sizes), from_lane<2>(sizes)), sizes));
+}
+
+} // namespace
 
 void TriangleCheck::run(std::uint64_t first, std::uint64_t last, bool drop_zero_normals,
                         ObjChunkResult& result) {
@@ -14,7 +41,8 @@ void TriangleCheck::run(std::uint64_t first, std::uint64_t last, bool drop_zero_
   for (const Polygon& polygon : result.polygons) triangulate(polygon);
   for (std::uint64_t i = first; i < last; ++i) {
     if (drop_zero_normals) forget_zero_normals(i);
-    if (!can_be_hit(i)) result.dropped.push_back(static_cast<std::uint32_t>(i));
+    const float size = normal_size(desc_, i);
+    if (!(size > 0 && size < infinity)) drop(i, size == 0, result);
   }
   std::stable_sort(findings_.begin(), findings_.end(),
                    [](const Finding& a, const Finding& b) { return a.triangle < b.triangle; });
@@ -58,19 +86,12 @@ void TriangleCheck::triangulate(const Polygon& polygon) {
     findings_.push_back({polygon.first_triangle, "bent polygon", "the polygon is far from planar"});
 }
 
-// Tested with the very cross product that shading normalises later: 0 and overflow have no normal.
-bool TriangleCheck::can_be_hit(std::size_t i) {
-  const TriangleColumns& rows = desc_.triangles;
-  const Vec3 a = desc_.positions[rows.v0[i]];
-  const Vec3 b = desc_.positions[rows.v1[i]] - a, c = desc_.positions[rows.v2[i]] - a;
-  const float x = b.y * c.z - c.y * b.z, y = b.z * c.x - c.z * b.x, z = b.x * c.y - c.x * b.y;
-  const float size = std::abs(x) + std::abs(y) + std::abs(z);
-  if (size > 0 && size < infinity) return true;
-  if (size == 0)
+void TriangleCheck::drop(std::size_t i, bool is_degenerate, ObjChunkResult& result) {
+  if (is_degenerate)
     findings_.push_back({i, "degenerate face", "triangle without area skipped"});
   else
     findings_.push_back({i, "huge face", "triangle too large for single precision skipped"});
-  return false;
+  result.dropped.push_back(static_cast<std::uint32_t>(i));
 }
 
 void TriangleCheck::forget_zero_normals(std::size_t i) {

@@ -12,9 +12,9 @@ namespace fastrt {
 
 // What the scene's own tree holds: the primitives that have a box (planes have none) and are in no prototype,
 // then the instances that show something. The id of an instance is its number after those of all primitives.
-Column<PrimitiveBox> world_boxes(const Scene& scene);
+Column<PrimitiveBox> world_boxes(const Scene& scene, int threads);
 
 // What the tree of a prototype holds.
-Column<PrimitiveBox> prototype_boxes(const Scene& scene, const Prototype& prototype);
+Column<PrimitiveBox> prototype_boxes(const Scene& scene, const Prototype& prototype, int threads);
 
 } // namespace fastrt

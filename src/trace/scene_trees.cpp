@@ -70,7 +70,7 @@ float largest_magnitude(const Aabb& box) {
 
 SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings) {
   SceneTrees trees;
-  trees.all = build_tree(world_boxes(scene), settings);
+  trees.all = build_tree(world_boxes(scene, settings.threads), settings);
   BvhStats& stats = trees.stats;
   stats.leaf_count = leaf_count(trees.all);
   stats.sah_cost = sah_cost(trees.all, settings.run_size);
@@ -78,7 +78,7 @@ SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings) 
   int depth = 0;
   std::vector<double> costs;
   for (const Prototype& prototype : scene.desc().prototypes) {
-    WideTree tree = build_tree(prototype_boxes(scene, prototype), settings);
+    WideTree tree = build_tree(prototype_boxes(scene, prototype, settings.threads), settings);
     depth = std::max(depth, tree_depth(tree));
     stats.leaf_count += leaf_count(tree);
     costs.push_back(sah_cost(tree, settings.run_size));

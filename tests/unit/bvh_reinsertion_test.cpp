@@ -2,6 +2,7 @@
 #include "src/accel/check_tree.hpp"
 #include "src/accel/linked_tree.hpp"
 #include "src/accel/reinsertion.hpp"
+#include "src/accel/tree_top.hpp"
 #include "tests/unit/bvh_boxes.hpp"
 
 #include <gtest/gtest.h>
@@ -13,16 +14,14 @@
 namespace fastrt {
 namespace {
 
-BuildSettings high_quality(int threads = 0) {
-  BuildSettings settings;
-  settings.threads = threads;
-  settings.quality = BvhQuality::high;
-  return settings;
+constexpr BvhQuality qualities[] = {BvhQuality::standard, BvhQuality::high};
+
+BinaryTree build(Column<PrimitiveBox> boxes, BvhQuality quality, int threads = 0) {
+  return build_binary_tree(boxes, {.threads = threads, .quality = quality});
 }
 
-BinaryTree build(Column<PrimitiveBox> boxes, const BuildSettings& settings) {
-  return build_binary_tree(boxes, settings);
-}
+// What reinsertion starts from.
+BinaryTree split(Column<PrimitiveBox> boxes) { return split_boxes(boxes, {}); }
 
 // What reinsertion makes less: the half areas of all boxes, leaves' too, which stay as they are.
 double cost(const BinaryTree& tree) {
@@ -51,23 +50,30 @@ class ReinsertionOf : public testing::TestWithParam<Case> {};
 
 TEST_P(ReinsertionOf, keeps_what_a_tree_promises_and_its_leaves) {
   const Column<PrimitiveBox> boxes = GetParam().boxes();
-  const BinaryTree standard = build(boxes, {}), high = build(boxes, high_quality());
-  EXPECT_EQ(check_tree(high, boxes), "");
-  EXPECT_TRUE(leaves(high) == leaves(standard));
-  EXPECT_LE(cost(high), cost(standard) * (1 + 1e-12));
-  const WideTree wide = collapse(high, high_quality());
-  EXPECT_EQ(check_tree(wide, boxes), "");
+  const BinaryTree before = split(boxes);
+  for (const BvhQuality quality : qualities) {
+    const BinaryTree tree = build(boxes, quality);
+    EXPECT_EQ(check_tree(tree, boxes), "");
+    EXPECT_TRUE(leaves(tree) == leaves(before));
+    EXPECT_LE(cost(tree), cost(before) * (1 + 1e-12));
+    EXPECT_EQ(check_tree(collapse(tree, {}), boxes), "");
+  }
+}
+
+void expect_same(const BinaryTree& a, const BinaryTree& b) {
+  EXPECT_TRUE(bytes(a.nodes) == bytes(b.nodes));
+  EXPECT_TRUE(bytes(a.order) == bytes(b.order));
+  EXPECT_TRUE(bytes(a.group_of_leaf) == bytes(b.group_of_leaf));
+}
+
+void expect_same_for_any_number_of_threads(const Column<PrimitiveBox>& boxes, BvhQuality quality) {
+  const BinaryTree tree = build(boxes, quality, 1);
+  for (const int threads : {2, 8}) expect_same(tree, build(boxes, quality, threads));
 }
 
 TEST_P(ReinsertionOf, is_the_same_for_any_number_of_threads) {
-  const Column<PrimitiveBox> boxes = GetParam().boxes();
-  const BinaryTree tree = build(boxes, high_quality(1));
-  for (const int threads : {2, 8}) {
-    const BinaryTree again = build(boxes, high_quality(threads));
-    EXPECT_TRUE(bytes(tree.nodes) == bytes(again.nodes));
-    EXPECT_TRUE(bytes(tree.order) == bytes(again.order));
-    EXPECT_TRUE(bytes(tree.group_of_leaf) == bytes(again.group_of_leaf));
-  }
+  for (const BvhQuality quality : qualities)
+    expect_same_for_any_number_of_threads(GetParam().boxes(), quality);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bvh, ReinsertionOf, testing::ValuesIn(cases),
@@ -76,20 +82,39 @@ INSTANTIATE_TEST_SUITE_P(Bvh, ReinsertionOf, testing::ValuesIn(cases),
 TEST(Reinsertion, takes_any_small_count) {
   for (std::size_t count = 0; count <= 100; ++count) {
     const Column<PrimitiveBox> boxes = Case{"", count, random_box}.boxes();
-    EXPECT_EQ(check_tree(build(boxes, high_quality(1)), boxes), "") << count;
+    for (const BvhQuality quality : qualities)
+      EXPECT_EQ(check_tree(build(boxes, quality, 1), boxes), "") << count;
   }
 }
 
-TEST(Reinsertion, makes_a_tree_of_boxes_of_all_sizes_cheaper) {
-  const auto long_box = [](std::size_t i, Random& r) {
+// Beams among pebbles, one in 50: splitting by centroids cannot tell them apart.
+Column<PrimitiveBox> beams_among_pebbles(std::size_t count, float length) {
+  const auto beam_or_pebble = [length](std::size_t i, Random& r) {
     PrimitiveBox box = box_around(r(-1, 1), r(-1, 1), r(-1, 1), 0.002F, i);
-    box.upper[i % 3] += i % 5 == 0 ? 0.5F : 0.0F;
+    box.upper[i % 3] += i % 50 == 0 ? length : 0.0F;
     return box;
   };
-  const Column<PrimitiveBox> boxes = Case{"", 5000, long_box}.boxes();
-  const WideTree standard = collapse(build(boxes, {}), {});
-  const WideTree high = collapse(build(boxes, high_quality()), {});
-  EXPECT_LT(sah_cost(high), 0.98 * sah_cost(standard));
+  return Case{"", count, beam_or_pebble}.boxes();
+}
+
+TEST(Reinsertion, makes_a_tree_of_boxes_of_all_sizes_cheaper) {
+  const Column<PrimitiveBox> boxes = beams_among_pebbles(5000, 1.5F);
+  const double before = sah_cost(collapse(split(boxes), {}));
+  EXPECT_LT(sah_cost(collapse(build(boxes, BvhQuality::standard), {})), 0.97 * before);
+  EXPECT_LT(sah_cost(collapse(build(boxes, BvhQuality::high), {})), 0.9 * before);
+}
+
+TEST(Reinsertion, of_the_largest_leaves_a_tree_alone_that_has_little_to_gain) {
+  const Column<PrimitiveBox> boxes = beams_among_pebbles(20000, 0.5F);
+  expect_same(build(boxes, BvhQuality::standard), split(boxes));
+  EXPECT_LT(cost(build(boxes, BvhQuality::high)), cost(split(boxes)));
+}
+
+// So many that the search for the best places of the largest takes several tasks on several threads.
+TEST(Reinsertion, of_the_largest_of_many_is_the_same_for_any_number_of_threads) {
+  const Column<PrimitiveBox> boxes = beams_among_pebbles(260'000, 1.5F);
+  ASSERT_LT(cost(build(boxes, BvhQuality::standard)), cost(split(boxes)));
+  expect_same_for_any_number_of_threads(boxes, BvhQuality::standard);
 }
 
 // One primitive a leaf, at the end of its own branch of a chain of so many levels.
@@ -122,15 +147,63 @@ TEST(Reinsertion, shortens_a_chain_as_deep_as_trees_may_be) {
   const Column<PrimitiveBox> boxes = Case{"", max_tree_depth, random_box}.boxes();
   BinaryTree tree = chain(boxes);
   ASSERT_EQ(check_tree(tree, boxes), "");
+  BinaryTree largest = tree;
   const double before = cost(tree);
-  reinsert_subtrees(tree, high_quality());
+  reinsert_subtrees(tree, {});
   EXPECT_EQ(check_tree(tree, boxes), "");
   EXPECT_LT(cost(tree), 0.9 * before);
+  reinsert_largest_subtrees(largest, {});
+  EXPECT_EQ(check_tree(largest, boxes), "");
+  EXPECT_LT(cost(largest), before);
+}
+
+TEST(TreeTop, with_what_was_below_is_the_tree_again) {
+  for (const Case& c : cases) {
+    if (c.count > 50'000) continue;
+    const Column<PrimitiveBox> boxes = c.boxes();
+    const BinaryTree tree = split(boxes);
+    for (const std::size_t count : {1U, 2U, 3U, 10U, 101U, 1000'000U}) {
+      const TreeTop top(tree, count);
+      EXPECT_LE(top.tree().nodes.size(), count);
+      expect_same(top.below(top.tree()), tree);
+    }
+    EXPECT_EQ(TreeTop(tree, tree.nodes.size()).tree().nodes.size(), tree.nodes.size()) << c.name;
+  }
+}
+
+double half_area(const BinaryNode& node) {
+  BinaryTree one;
+  one.nodes.push_back(node);
+  return cost(one);
+}
+
+TEST(TreeTop, has_the_largest_nodes) {
+  const BinaryTree tree = split(beams_among_pebbles(5000, 1.5F));
+  const TreeTop top(tree, 201);
+  ASSERT_EQ(top.tree().nodes.size(), 201U);
+  double smallest_inner = infinity, largest_left_out = 0;
+  for (const BinaryNode& node : top.tree().nodes) {
+    if (node.count == 0) {
+      smallest_inner = std::min(smallest_inner, half_area(node));
+    } else if (const BinaryNode& whole = tree.nodes[top.tree().order[node.first]]; whole.count == 0) {
+      largest_left_out = std::max(largest_left_out, half_area(whole));
+    }
+  }
+  EXPECT_GE(smallest_inner, largest_left_out);
+}
+
+TEST(TreeTop, leaves_room_for_the_highest_subtree_below_it) {
+  const Column<PrimitiveBox> boxes = Case{"", max_tree_depth, random_box}.boxes();
+  const BinaryTree tree = chain(boxes);
+  EXPECT_EQ(TreeTop(tree, 1).max_depth(), 1);
+  EXPECT_EQ(TreeTop(tree, 3).max_depth(), 2);
+  EXPECT_EQ(TreeTop(tree, 11).max_depth(), 6);
+  EXPECT_EQ(TreeTop(tree, tree.nodes.size()).max_depth(), max_tree_depth);
 }
 
 TEST(LinkedTree, takes_moves_back) {
   const Column<PrimitiveBox> boxes = Case{"", 300, random_box}.boxes();
-  const BinaryTree tree = build(boxes, {});
+  const BinaryTree tree = split(boxes);
   LinkedTree linked(tree);
   std::size_t moves = 0;
   for (std::uint32_t node = 0; node < linked.size(); ++node) {
@@ -152,7 +225,7 @@ TEST(LinkedTree, takes_moves_back) {
 
 TEST(LinkedTree, refuses_what_makes_no_tree_or_one_too_deep) {
   const Column<PrimitiveBox> boxes = Case{"", max_tree_depth, random_box}.boxes();
-  const LinkedTree linked(chain(boxes));
+  LinkedTree linked(chain(boxes));
   const std::uint32_t lowest = 2 * max_tree_depth - 2; // the right one of the two lowest leaves
   EXPECT_FALSE(linked.can_move(0, 9));                 // the root
   EXPECT_FALSE(linked.can_move(1, 9));                 // its children
@@ -162,6 +235,9 @@ TEST(LinkedTree, refuses_what_makes_no_tree_or_one_too_deep) {
   EXPECT_FALSE(linked.can_move(4, lowest)); // into itself
   EXPECT_FALSE(linked.can_move(3, lowest)); // a level too many
   EXPECT_TRUE(linked.can_move(lowest, 3));
+  EXPECT_TRUE(linked.can_move(1 + 2, 1 + 2 * 10));
+  linked.limit_depth(11);
+  EXPECT_FALSE(linked.can_move(1 + 2, 1 + 2 * 10));
 }
 
 } // namespace

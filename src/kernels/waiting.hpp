@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A child that waits on the stack of a ray that goes alone: its reference below, the distance to its box
+// above, the lowest bits of which hold the size of the box. As numbers such entries are in the order of their
+// distances; negative distances count as the farthest.
+#pragma once
+
+#include "src/accel/wide_node.hpp"
+#include "src/simd/lanes.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+using Waiting = std::uint64_t;
+
+FASTRT_INLINE Waiting make_waiting(std::uint32_t child, float near, std::uint32_t size) {
+  const std::uint32_t distance = __builtin_bit_cast(std::uint32_t, near) & ~size_bits;
+  return static_cast<Waiting>(distance | size) << 32U | child;
+}
+FASTRT_INLINE std::uint32_t child_of(Waiting w) { return static_cast<std::uint32_t>(w); }
+FASTRT_INLINE float size_of(Waiting w) { return box_size(static_cast<std::uint32_t>(w >> 32U) & size_bits); }
+
+// Greater entries no longer matter to a ray that looks no farther than `bound`. For a ray that begins behind
+// its origin all of them do.
+FASTRT_INLINE Waiting waiting_limit(float bound, float t_min) {
+  if (t_min < 0.0F) return ~Waiting{0};
+  return static_cast<Waiting>(__builtin_bit_cast(std::uint32_t, bound) | size_bits) << 32U | 0xFFFFFFFFU;
+}
+
+// Children of a node are met all at once where eight lanes exist, else in two halves.
+inline constexpr int node_lanes = widest < wide_children ? widest : wide_children;
+
+// Which boxes a ray meets, and where.
+struct BoxLanes {
+  Floats<node_lanes> near;
+  Mask<node_lanes> met;
+};
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
