@@ -62,7 +62,7 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
     trace_alike<any>(scene, rays, hits, columns, first, end - first < beam_size ? end - first : beam_size);
 }
 
-// Rays with gaps between them.
+// Rays with gaps between them. (Not for tiles: their groups would become wider.)
 template <bool any>
 [[gnu::noinline]] static void trace_packed(const GeometryView& scene, const RayBatch& rays,
                                            HitBatch& hits) noexcept {
@@ -74,18 +74,11 @@ template <bool any>
   unpack_hits(packed, hits);
 }
 
-// Moved together, a tile's groups become wider, so that more triangles are sieved: what is saved elsewhere is
-// lost there.
-FASTRT_INLINE bool is_worth_packing(const GeometryView& scene, const RayBatch& rays) {
-  if (rays.shape == BatchShape::any) return false;
-  return (rays.shape == BatchShape::coherent || scene.has_triangles == 0) && has_gaps(rays);
-}
-
 template <bool any>
 static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   clear_hits(rays, hits);
   hits.lone = 0;
-  if (is_worth_packing(scene, rays))
+  if (rays.shape == BatchShape::coherent && has_gaps(rays))
     trace_packed<any>(scene, rays, hits);
   else
     trace_tree<any>(scene, rays, hits);
