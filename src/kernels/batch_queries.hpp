@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/kernels/beam_traversal.hpp"
+#include "src/kernels/packed_batch.hpp"
 #include "src/kernels/tile_traversal.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -29,11 +30,14 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
   hits.primitives += static_cast<std::uint64_t>(rays.count) * shapes.plane_count;
 }
 
-// Neighbouring rays: as one beam, or where they point apart in packets.
+// Neighbouring rays: as one beam, or where they point apart in packets. What beams are best at is telling
+// which rays triangles lie around; on the way to lights that are shadowed by other primitives packets are
+// faster.
 template <bool any>
 static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
                         int first, int count) noexcept {
-  if (trace_beam<any>(scene, rays, hits, columns, first, count)) return;
+  const bool beams = !any || scene.has_triangles != 0;
+  if (beams && trace_beam<any>(scene, rays, hits, columns, first, count)) return;
   for (int i = first; i < first + count && i < rays.count; i += widest)
     trace_packet<any>(scene, rays, hits, columns, i);
 }
@@ -58,11 +62,26 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
     trace_alike<any>(scene, rays, hits, columns, first, end - first < beam_size ? end - first : beam_size);
 }
 
+// Rays with gaps between them. (Not for tiles: their groups would become wider.)
+template <bool any>
+[[gnu::noinline]] static void trace_packed(const GeometryView& scene, const RayBatch& rays,
+                                           HitBatch& hits) noexcept {
+  PackedBatch packed;
+  pack_rays(rays, packed);
+  clear_hits(packed.rays, packed.hits);
+  packed.hits.boxes = packed.hits.primitives = packed.hits.lone = 0;
+  trace_tree<any>(scene, packed.rays, packed.hits);
+  unpack_hits(packed, hits);
+}
+
 template <bool any>
 static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   clear_hits(rays, hits);
   hits.lone = 0;
-  trace_tree<any>(scene, rays, hits);
+  if (rays.shape == BatchShape::coherent && has_gaps(rays))
+    trace_packed<any>(scene, rays, hits);
+  else
+    trace_tree<any>(scene, rays, hits);
   count_tests(hits, hits.lone >> 32U, (hits.lone & 0xFFFFFFFFU) * leaf_lanes);
   if (scene.shapes.plane_count != 0) meet_planes(scene.shapes, rays, hits);
 }

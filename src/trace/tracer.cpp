@@ -27,6 +27,7 @@ void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree, bool culling
   view.nodes = parts.nodes.data();
   view.triangles = parts.triangle_blocks.data();
   view.spheres = parts.sphere_blocks.data();
+  view.has_triangles = parts.triangle_blocks.empty() ? 0 : 1;
   view.shape_blocks = parts.shape_blocks.data();
   view.shapes = shape_view(parts.scene, parts.shapes);
   view.root = tree.root;

@@ -97,6 +97,27 @@ TEST_P(BatchTraversal, OfAnyRaysFindsWhatBruteForceFinds) {
   expect_hits(0.05);
 }
 
+// Most rays of some batches, and few of others, look for nothing: those of a surface that turns away from a
+// light.
+void make_gaps(RayRun& run, Random& random) {
+  const std::uint32_t left = 1 + random.below(15);
+  for (Ray& ray : run)
+    if (random.below(16) >= left) ray.t_max = random.below(2) == 0 ? ray.t_min : -1.0F;
+}
+
+TEST_P(BatchTraversal, WithGapsFindsWhatBruteForceFinds) {
+  Random random(54);
+  for (int i = 0; i < rounds(60); ++i) {
+    const bool one_origin = i % 2 == 0;
+    RayRun run = one_origin ? origin_run(scene(), random) : parallel_run(scene(), random);
+    vary(run, scene(), one_origin, random);
+    make_gaps(run, random);
+    expect_same(run, any_count(random),
+                {one_origin ? BatchShape::common_origin : BatchShape::parallel, BatchShape::coherent});
+  }
+  expect_hits(0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, BatchTraversal, testing::ValuesIn(geometry_scenes()), SceneName());
 
 } // namespace
