@@ -131,25 +131,28 @@ FASTRT_INLINE bool groups_are_compact(const TileGroups& groups) {
   return sum <= 1.2F * width * height;
 }
 
-// False if the rays spread too widely to be seen from one plane, or lie in it without order.
-FASTRT_INLINE bool project_batch(const GeometryView& scene, const RayBatch& rays, const LiveRays& live,
-                                 TileFrame& f, TilePoints& points, TileGroups& groups) {
+// What became of rays that were to be projected: too wide, they can't be seen from one plane; scattered, they
+// lie in it without order.
+enum class Projection { done, too_wide, scattered };
+
+FASTRT_INLINE Projection project_batch(const GeometryView& scene, const RayBatch& rays, const LiveRays& live,
+                                       TileFrame& f, TilePoints& points, TileGroups& groups) {
   for (int i = 0; i < batch_size; i += widest) {
     const std::uint32_t bits =
         (live.bits[i / group_size] >> (i % group_size)) & ((1U << (widest - 1)) * 2U - 1U);
-    if ((to_bits(project_rays(f, rays, bits, i, points)) & bits) != bits) return false;
+    if ((to_bits(project_rays(f, rays, bits, i, points)) & bits) != bits) return Projection::too_wide;
   }
   min_of_groups(points.x, groups.x0);
   min_of_groups(points.y, groups.y0);
   max_of_groups(points.minus_x, groups.x1);
   max_of_groups(points.minus_y, groups.y1);
-  if (!groups_are_compact(groups)) return false;
+  if (!groups_are_compact(groups)) return Projection::scattered;
   max_of_groups(points.minus_scale, groups.depth_scale);
   max_of_groups(points.minus_offset, groups.depth_offset);
   alignas(64) float least_offset[batch_groups];
   min_of_groups(points.offset, least_offset);
   bound_frame(scene, least_of(least_offset), groups, f);
-  return true;
+  return Projection::done;
 }
 
 // The farthest depth at which a hit of group g still matters.

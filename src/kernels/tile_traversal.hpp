@@ -6,6 +6,7 @@
 #pragma once
 
 #include "src/kernels/tile_edges.hpp"
+#include "src/kernels/tile_split.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -372,22 +373,47 @@ FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
   }
 }
 
-// Traces the batch as one; false (and nothing done) if its rays don't allow that. hits: cleared by the
-// caller.
+// Traces the rays in `live` as one. If they are scattered, nothing is done but to move some of them to
+// `others`.
 template <bool any>
-static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
-  const LiveRays live = find_live_rays(rays);
-  if (live.first < 0) return true;
-  if (live.backwards) return false;
+static Projection trace_together(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                                 LiveRays& live, LiveRays& others) noexcept {
   TileTraversal<any> tile(scene, rays, hits, live);
   tile.view.frame = make_tile_frame(rays, live);
-  if (!project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups)) return false;
+  const Projection projection =
+      project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups);
+  if (projection == Projection::scattered && !split_groups(tile.points, tile.view.groups, live, others))
+    return Projection::too_wide;
+  if (projection != Projection::done) return projection;
   for (int g = 0; g < batch_groups; ++g)
     tile.view.groups.far[g] =
         live.bits[g] == 0 ? -__builtin_inff() : group_far(hits, tile.view.groups, live.bits[g], g);
   aim_view(tile.view);
   traverse(tile);
   count_tests(hits, tile.nodes, tile.tests);
+  return Projection::done;
+}
+
+// Traces the batch as one, or in few parts; false if its rays don't allow that. Then some of them may have
+// been traced all the same. hits: cleared by the caller.
+template <bool any>
+static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  LiveRays parts[max_tile_splits + 1];
+  parts[0] = find_live_rays(rays);
+  if (parts[0].first < 0) return true;
+  if (parts[0].backwards) return false;
+  int count = 1, splits = 0;
+  while (count != 0) {
+    LiveRays others;
+    const Projection projection = trace_together<any>(scene, rays, hits, parts[count - 1], others);
+    if (projection == Projection::too_wide) return false;
+    if (projection == Projection::done)
+      --count;
+    else if (splits++ == max_tile_splits)
+      return false;
+    else
+      parts[count++] = others;
+  }
   return true;
 }
 
