@@ -57,11 +57,14 @@ FASTRT_INLINE Extent<F> box_extent(const ExtentAxis& a, const float* columns, co
   const F x(a.axis.x), y(a.axis.y), z(a.axis.z), offset(a.offset);
   const float* const cy = columns + 2 * wide_children;
   const float* const cz = columns + 4 * wide_children;
-  const F low = (x * load<F>(columns + a.low_x) + y * load<F>(cy + a.low_y)) + z * load<F>(cz + a.low_z);
+  const F low = cull_mul_add(
+      z, load<F>(cz + a.low_z),
+      cull_mul_add(y, load<F>(cy + a.low_y), cull_mul_sub(x, load<F>(columns + a.low_x), offset)));
   const F high =
-      (x * load<F>(columns + (wide_children - a.low_x)) + y * load<F>(cy + (wide_children - a.low_y))) +
-      z * load<F>(cz + (wide_children - a.low_z));
-  return {(low - offset) - padding, (high - offset) + padding};
+      cull_mul_add(z, load<F>(cz + (wide_children - a.low_z)),
+                   cull_mul_add(y, load<F>(cy + (wide_children - a.low_y)),
+                                cull_mul_sub(x, load<F>(columns + (wide_children - a.low_x)), offset)));
+  return {low - padding, high + padding};
 }
 
 // The projection with what node tests need of it.
@@ -208,10 +211,11 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
                                                    const V3<LeafF>& b, const V3<LeafF>& c) {
   const V3<LeafF> u = broadcast3<LeafF>(view.frame.u), v = broadcast3<LeafF>(view.frame.v),
                   w = broadcast3<LeafF>(view.frame.w);
-  const LeafF aw = dot(a, w), bw = dot(b, w), cw = dot(c, w);
+  const LeafF aw = cull_dot(a, w), bw = cull_dot(b, w), cw = cull_dot(c, w);
   const LeafF padding(view.frame.padding);
   const LeafF near = min(aw, min(bw, cw)) - padding;
-  LeafF ax = dot(a, u), bx = dot(b, u), cx = dot(c, u), ay = dot(a, v), by = dot(b, v), cy = dot(c, v);
+  LeafF ax = cull_dot(a, u), bx = cull_dot(b, u), cx = cull_dot(c, u), ay = cull_dot(a, v),
+        by = cull_dot(b, v), cy = cull_dot(c, v);
   if (!view.frame.perspective)
     return {{min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
              max(ay, max(by, cy)) + padding, near},

@@ -97,17 +97,17 @@ FASTRT_INLINE PacketM project_rays(const TileFrame& f, const RayBatch& rays, std
   const PacketF nothing(__builtin_inff());
   const V3<PacketF> u = broadcast3<PacketF>(f.u), v = broadcast3<PacketF>(f.v), w = broadcast3<PacketF>(f.w);
   const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-  const PacketF scale = dot(dir, w);
+  const PacketF scale = cull_dot(dir, w);
   PacketF x, y, offset(0.0F);
   if (f.perspective) {
     const PacketF inverse = PacketF(1.0F) / scale;
-    x = dot(dir, u) * inverse;
-    y = dot(dir, v) * inverse;
+    x = cull_dot(dir, u) * inverse;
+    y = cull_dot(dir, v) * inverse;
   } else {
     const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
-    x = dot(origin, u);
-    y = dot(origin, v);
-    offset = dot(origin, w);
+    x = cull_dot(origin, u);
+    y = cull_dot(origin, v);
+    offset = cull_dot(origin, w);
   }
   const PacketM mask = from_bits<widest>(live);
   select(mask, x, nothing).store_aligned(points.x + i);

@@ -89,7 +89,7 @@ FASTRT_INLINE V3<PacketF> load_origin(const RayBatch& rays, int i) {
 
 // Set-ups and reaches of a run as columns, so that one can be spread over a register.
 struct BlockSetup {
-  alignas(32) float columns[22][leaf_lanes];
+  alignas(32) float columns[19][leaf_lanes];
 };
 
 FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<LeafF>& s, const TriangleReach<LeafF>& r) {
@@ -101,7 +101,6 @@ FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<LeafF>& s, const Triang
   s.offset.store_aligned(out.columns[12]);
   store3(r.low, out.columns[13], out.columns[14], out.columns[15]);
   store3(r.high, out.columns[16], out.columns[17], out.columns[18]);
-  store3(V3<LeafF>{s.slack_a, s.slack_b, s.slack_c}, out.columns[19], out.columns[20], out.columns[21]);
   return out;
 }
 
@@ -127,18 +126,12 @@ template <bool any>
 FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, const EdgeLines& lines,
                                     int i, std::int32_t primitive, std::uint32_t groups) {
   for_each_group(tile, lines, i, groups, [&](int g, std::uint32_t rays) {
-    const V3<PacketF> slack = spread(block, 19, i);
-    const TriangleSetup<PacketF> setup{spread(block, 0, i),
-                                       spread(block, 3, i),
-                                       spread(block, 6, i),
-                                       spread(block, 9, i),
-                                       PacketF(block.columns[12][i]),
-                                       slack.x,
-                                       slack.y,
-                                       slack.z};
+    const TriangleSetup<PacketF> setup{spread(block, 0, i), spread(block, 3, i), spread(block, 6, i),
+                                       spread(block, 9, i), PacketF(block.columns[12][i])};
     const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
     meet_group(tile, g, rays, primitive, [&](int ray) -> MetLanes {
-      const TriangleLanes<PacketF> lanes = intersect_triangle(setup, load_dir(tile.rays, ray), reach);
+      const TriangleLanes<PacketF> lanes = intersect_triangle(
+          setup, load_dir(tile.rays, ray), rays >> (ray % group_size) & register_bits, reach);
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
     });
   });
@@ -201,8 +194,8 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlo
 FASTRT_INLINE Rectangles<LeafF> project_spheres(const TileFrame& f, const BlockRun<SphereBlock>& run) {
   const V3<LeafF> center = load_centers(run) - broadcast3<LeafF>(f.origin);
   const LeafF reach = load_two<LeafF>(run.low->radius, run.high->radius) + LeafF(f.padding);
-  const LeafF u = dot(center, broadcast3<LeafF>(f.u)), v = dot(center, broadcast3<LeafF>(f.v)),
-              w = dot(center, broadcast3<LeafF>(f.w));
+  const LeafF u = cull_dot(center, broadcast3<LeafF>(f.u)), v = cull_dot(center, broadcast3<LeafF>(f.v)),
+              w = cull_dot(center, broadcast3<LeafF>(f.w));
   return project_extent(f, u - reach, u + reach, v - reach, v + reach, w - reach, w + reach);
 }
 
@@ -236,10 +229,10 @@ FASTRT_INLINE Rectangles<LeafF> project_boxes(const TileFrame& f, const BlockRun
   const V3<LeafF> half = (high - low) * LeafF(0.5F);
   const V3<LeafF> middle = (low + half) - broadcast3<LeafF>(f.origin);
   const LeafF padding(f.padding);
-  const auto at = [&](const V3<float>& axis) { return dot(middle, broadcast3<LeafF>(axis)); };
+  const auto at = [&](const V3<float>& axis) { return cull_dot(middle, broadcast3<LeafF>(axis)); };
   const auto reach = [&](const V3<float>& axis) {
     const V3<LeafF> a = broadcast3<LeafF>(axis);
-    return ((abs(a.x) * half.x + abs(a.y) * half.y) + abs(a.z) * half.z) + padding;
+    return cull_dot(V3<LeafF>{abs(a.x), abs(a.y), abs(a.z)}, half) + padding;
   };
   const LeafF u = at(f.u), v = at(f.v), w = at(f.w), ru = reach(f.u), rv = reach(f.v), rw = reach(f.w);
   return project_extent(f, u - ru, u + ru, v - rv, v + rv, w - rw, w + rw);

@@ -15,25 +15,14 @@ template <class F>
 struct TriangleSetup {
   V3<F> edge_a, edge_b, edge_c; // normals of the planes through the origin and an edge
   V3<F> normal;
-  F offset;                    // T: the normal's component of the vector to the triangle
-  F slack_a, slack_b, slack_c; // how far outside an edge still counts, per size of the direction
+  F offset; // T: the normal's component of the vector to the triangle
 };
 
 // a, b, c: vertices relative to the ray's origin.
 template <class F>
 FASTRT_INLINE TriangleSetup<F> set_up_triangle(const V3<F>& a, const V3<F>& b, const V3<F>& c) {
-  TriangleSetup<F> s{cross(b - c, b + c),
-                     cross(c - a, c + a),
-                     cross(a - b, a + b),
-                     cross(b - a, c - a),
-                     F(0.0F),
-                     F(0.0F),
-                     F(0.0F),
+  TriangleSetup<F> s{cross(b - c, b + c), cross(c - a, c + a), cross(a - b, a + b), cross(b - a, c - a),
                      F(0.0F)};
-  const F share(edge_slack);
-  s.slack_a = share * largest(s.edge_a);
-  s.slack_b = share * largest(s.edge_b);
-  s.slack_c = share * largest(s.edge_c);
   s.offset = dot(a, s.normal);
   const F sign = sign_bit(s.offset);
   s.edge_a = flip(s.edge_a, sign);
@@ -103,42 +92,52 @@ FASTRT_INLINE TriangleLanes<F> held_to_reach(const TriangleLanes<F>& lanes, cons
   return {lanes.inside & (reached | moved.inside), select(reached, lanes.t, moved.t)};
 }
 
+// How far along an edge's normal the direction goes: where inside the edge, 0 or more. Turned by the sign of
+// T.
+template <class F>
+struct EdgeSides {
+  F u, v, w;
+};
+
+// Inside all three edges. What an edge lets through beyond itself is computed only if one of the lanes in
+// `asked` (bits) lies beyond one.
+template <class F>
+FASTRT_INLINE MaskOf<F> inside_edges(const EdgeSides<F>& at, const V3<F>& edge_a, const V3<F>& edge_b,
+                                     const V3<F>& edge_c, const V3<F>& dir, std::uint32_t asked) {
+  const F zero(0.0F);
+  const MaskOf<F> inside = (at.u >= zero) & (at.v >= zero) & (at.w >= zero);
+  if ((asked & ~to_bits(inside)) == 0) return inside;
+  const F share(edge_slack), size = largest(dir);
+  return (at.u >= negate((share * largest(edge_a)) * size)) &
+         (at.v >= negate((share * largest(edge_b)) * size)) &
+         (at.w >= negate((share * largest(edge_c)) * size));
+}
+
 // Where the line through the origin along `dir` passes inside the triangle, and at which t. The caller checks
-// the range of t; NaN fails every comparison. The division waits until some lane needs it.
+// the range of t; NaN fails every comparison. The division waits until some lane needs it. Lanes that are not
+// asked may come out as misses.
 template <class F, class Reach>
 FASTRT_INLINE TriangleLanes<F> intersect_triangle(const TriangleSetup<F>& s, const V3<F>& dir,
-                                                  const Reach& reach) {
-  const F u = dot(dir, s.edge_a);
-  const F v = dot(dir, s.edge_b);
-  const F w = dot(dir, s.edge_c);
-  const F size = largest(dir);
-  const MaskOf<F> inside =
-      (u >= negate(s.slack_a * size)) & (v >= negate(s.slack_b * size)) & (w >= negate(s.slack_c * size));
-  if (to_bits(inside) == 0) return {inside, F(0.0F)};
+                                                  std::uint32_t asked, const Reach& reach) {
+  const EdgeSides<F> at{dot(dir, s.edge_a), dot(dir, s.edge_b), dot(dir, s.edge_c)};
+  const MaskOf<F> inside = inside_edges(at, s.edge_a, s.edge_b, s.edge_c, dir, asked);
+  if ((asked & to_bits(inside)) == 0) return {inside, F(0.0F)};
   return held_to_reach(TriangleLanes<F>{inside, s.offset / dot(dir, s.normal)}, dir, reach);
 }
 
-// The same for rays that share no set-up: U, V and W are turned instead of what they are made from, and what
-// an edge lets through beyond itself is computed only if one of the lanes in `asked` (bits) lies beyond one.
-// a, b, c: vertices relative to the rays' origins. Lanes that are not asked may come out as misses.
+// The same for rays that share no set-up: U, V and W are turned instead of what they are made from.
+// a, b, c: vertices relative to the rays' origins.
 template <class F>
 FASTRT_INLINE TriangleLanes<F> intersect_triangle(const V3<F>& a, const V3<F>& b, const V3<F>& c,
                                                   const V3<F>& dir, const F& largest_origin,
                                                   std::uint32_t asked) {
-  const F zero(0.0F);
   const V3<F> edge_a = cross(b - c, b + c), edge_b = cross(c - a, c + a), edge_c = cross(a - b, a + b),
               normal = cross(b - a, c - a);
   const F offset = dot(a, normal), sign = sign_bit(offset);
-  const F u = flip(dot(dir, edge_a), sign), v = flip(dot(dir, edge_b), sign),
-          w = flip(dot(dir, edge_c), sign);
-  MaskOf<F> inside = (u >= zero) & (v >= zero) & (w >= zero);
-  if ((asked & ~to_bits(inside)) != 0) {
-    const F share(edge_slack), size = largest(dir);
-    inside = (u >= negate((share * largest(edge_a)) * size)) &
-             (v >= negate((share * largest(edge_b)) * size)) &
-             (w >= negate((share * largest(edge_c)) * size));
-  }
-  if ((asked & to_bits(inside)) == 0) return {inside, zero};
+  const EdgeSides<F> at{flip(dot(dir, edge_a), sign), flip(dot(dir, edge_b), sign),
+                        flip(dot(dir, edge_c), sign)};
+  const MaskOf<F> inside = inside_edges(at, edge_a, edge_b, edge_c, dir, asked);
+  if ((asked & to_bits(inside)) == 0) return {inside, F(0.0F)};
   return held_to_reach(TriangleLanes<F>{inside, offset / dot(dir, normal)}, dir,
                        [&] { return reach_of(a, b, c, largest_origin); });
 }
