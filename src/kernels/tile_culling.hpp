@@ -200,11 +200,66 @@ FASTRT_INLINE std::uint32_t far_groups(const TileGroups& groups, float near) {
   return bits;
 }
 
-// The triangles of a run of blocks in the plane: their rectangles, and for parallel rays their corners.
-struct ProjectedTriangles {
-  Rectangles<LeafF> bounds;
+// Corners of triangles in the plane.
+struct ProjectedCorners {
   LeafF ax, ay, bx, by, cx, cy;
 };
+
+// The triangles of a run of blocks in the plane.
+struct ProjectedTriangles {
+  Rectangles<LeafF> bounds;
+  ProjectedCorners corners;
+};
+
+// What the three edges let through together, with rounding, as a share of the triangle's distance.
+inline constexpr float edge_share = 0x1.8p-18F;
+
+// How far outside a triangle's rectangle its test may still let a ray hit it, at most: what an edge lets
+// through, as a share of the triangle's area in the plane, times the rectangle's longer side
+// (docs/numerics.md, "Triangle"). All rays in the plane of a triangle seen edge-on hit it that its box lets
+// through. far: the greatest depth, or 1 for parallel rays; deep: the depths' difference, times 5 in
+// perspective; share: what edges let
+// through in space, over the least depth squared.
+FASTRT_INLINE LeafF beyond_edges(const ProjectedCorners& p, const LeafF& far, const LeafF& deep,
+                                 const LeafF& share) {
+  const LeafF bx = p.bx - p.ax, by = p.by - p.ay, cx = p.cx - p.ax, cy = p.cy - p.ay;
+  const LeafF area = abs(cull_mul_sub(bx, cy, by * cx));
+  const LeafF extent = (abs(bx) + abs(cx)) + (abs(by) + abs(cy));
+  const LeafF length = cull_mul_add(extent, far, deep);
+  // Of triangles that are a point of the plane nothing is known.
+  const LeafF least(1e-30F);
+  return cull_mul_add(share * extent, length, least) * cull_inverse(max(area, LeafF(1e-37F)));
+}
+
+// The rectangles around the corners, larger by `margin` and by what is beyond the edges; in perspective the
+// farther out the more.
+FASTRT_INLINE Rectangles<LeafF> bound_corners(const ProjectedCorners& p, const LeafF& near,
+                                              const LeafF& margin, const LeafF& beyond, bool perspective) {
+  const LeafF x0 = min(p.ax, min(p.bx, p.cx)), x1 = max(p.ax, max(p.bx, p.cx)),
+              y0 = min(p.ay, min(p.by, p.cy)), y1 = max(p.ay, max(p.by, p.cy)), m = margin + beyond,
+              one(1.0F);
+  if (!perspective) return {x0 - m, x1 + m, y0 - m, y1 + m, near};
+  const LeafF mx = ((abs(x0) + abs(x1)) + one) * m, my = ((abs(y0) + abs(y1)) + one) * m;
+  return {x0 - mx, x1 + mx, y0 - my, y1 + my, near};
+}
+
+// Of triangles that reach behind the origin, those that may have points inside all four sides of the batch. A
+// hit may lie outside its triangle by what an edge lets through, here as a share of six times the volume
+// between triangle and origin. Seldom asked, and kept out of the way of what is.
+[[gnu::noinline]] static std::uint32_t within_sides(const TileView& view, const V3<LeafF>& a,
+                                                    const V3<LeafF>& b, const V3<LeafF>& c) noexcept {
+  const LeafF padding(view.frame.padding), everywhere(__builtin_inff());
+  const V3<LeafF> ab = b - a, ac = c - a;
+  const LeafF edge = max(largest(ab), largest(ac)) * padding, volume = abs(dot(a, cross(ab, ac)));
+  const LeafF beyond = select(volume > LeafF(0.0F), LeafF(0x1p22F) * (edge * edge) / volume, everywhere);
+  const LeafF tolerance = negate(LeafF(4.0F) * padding + beyond);
+  std::uint32_t within = ~0U;
+  for (const ExtentAxis& side : view.sides) {
+    const V3<LeafF> normal = broadcast3<LeafF>(side.axis);
+    within &= to_bits(max(cull_dot(a, normal), max(cull_dot(b, normal), cull_dot(c, normal))) >= tolerance);
+  }
+  return within;
+}
 
 // Vertices relative to the origin.
 FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V3<LeafF>& a,
@@ -212,48 +267,27 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
   const V3<LeafF> u = broadcast3<LeafF>(view.frame.u), v = broadcast3<LeafF>(view.frame.v),
                   w = broadcast3<LeafF>(view.frame.w);
   const LeafF aw = cull_dot(a, w), bw = cull_dot(b, w), cw = cull_dot(c, w);
-  const LeafF padding(view.frame.padding);
-  const LeafF near = min(aw, min(bw, cw)) - padding;
-  LeafF ax = cull_dot(a, u), bx = cull_dot(b, u), cx = cull_dot(c, u), ay = cull_dot(a, v),
-        by = cull_dot(b, v), cy = cull_dot(c, v);
+  const LeafF padding(view.frame.padding), one(1.0F);
+  const LeafF near = min(aw, min(bw, cw)) - padding, far = max(aw, max(bw, cw)), deep = far - near;
+  ProjectedCorners p{cull_dot(a, u), cull_dot(a, v), cull_dot(b, u),
+                     cull_dot(b, v), cull_dot(c, u), cull_dot(c, v)};
   if (!view.frame.perspective)
-    return {{min(ax, min(bx, cx)) - padding, max(ax, max(bx, cx)) + padding, min(ay, min(by, cy)) - padding,
-             max(ay, max(by, cy)) + padding, near},
-            ax,
-            ay,
-            bx,
-            by,
-            cx,
-            cy};
-  const LeafF one(1.0F), everywhere(__builtin_inff()), margin(rectangle_margin), zero(0.0F);
-  const MaskOf<LeafF> around = near <= zero;
-  MaskOf<LeafF> within = zero <= zero;
-  if (to_bits(around) != 0) {
-    const auto meets = [&](const LeafF& p, const LeafF& q, const LeafF& r) {
-      return max(p, max(q, r)) >= negate(LeafF(4.0F) * padding);
-    };
-    const LeafF vx0(view.x0), vx1(view.x1), vy0(view.y0), vy1(view.y1);
-    within = meets(ax - vx0 * aw, bx - vx0 * bw, cx - vx0 * cw) &
-             meets(vx1 * aw - ax, vx1 * bw - bx, vx1 * cw - cx) &
-             meets(ay - vy0 * aw, by - vy0 * bw, cy - vy0 * cw) &
-             meets(vy1 * aw - ay, vy1 * bw - by, vy1 * cw - cy);
-  }
-  const LeafF ai = one / aw, bi = one / bw, ci = one / cw;
-  ax = ax * ai, bx = bx * bi, cx = cx * ci, ay = ay * ai, by = by * bi, cy = cy * ci;
-  const LeafF x0 = min(ax, min(bx, cx)), x1 = max(ax, max(bx, cx)), y0 = min(ay, min(by, cy)),
-              y1 = max(ay, max(by, cy));
+    return {bound_corners(p, near, padding, beyond_edges(p, one, deep, LeafF(1.5F) * padding), false), p};
+  const LeafF ai = one / aw, bi = one / bw, ci = one / cw, scale = max(ai, max(bi, ci));
+  p = {p.ax * ai, p.ay * ai, p.bx * bi, p.by * bi, p.cx * ci, p.cy * ci};
   // A hit may lie outside its triangle by rounding: by a share of the plane, and by the padding in space.
-  const LeafF share = margin + padding * max(ai, max(bi, ci));
-  const LeafF mx = ((abs(x0) + abs(x1)) + one) * share, my = ((abs(y0) + abs(y1)) + one) * share;
-  const LeafF outside = select(within, negate(everywhere), everywhere);
-  return {{select(around, outside, x0 - mx), select(around, everywhere, x1 + mx),
-           select(around, negate(everywhere), y0 - my), select(around, everywhere, y1 + my), near},
-          ax,
-          ay,
-          bx,
-          by,
-          cx,
-          cy};
+  const LeafF margin = cull_mul_add(padding, scale, LeafF(rectangle_margin));
+  const LeafF beyond = beyond_edges(p, far, LeafF(5.0F) * deep, ((LeafF(edge_share) * far) * scale) * scale);
+  Rectangles<LeafF> r = bound_corners(p, near, margin, beyond, true);
+  const MaskOf<LeafF> around = near <= LeafF(0.0F);
+  if (to_bits(around) == 0) return {r, p};
+  const LeafF everywhere(__builtin_inff()), nowhere = negate(everywhere);
+  const MaskOf<LeafF> within = from_bits<leaf_lanes>(within_sides(view, a, b, c));
+  r.x0 = select(around, select(within, nowhere, everywhere), r.x0);
+  r.x1 = select(around, everywhere, r.x1);
+  r.y0 = select(around, nowhere, r.y0);
+  r.y1 = select(around, everywhere, r.y1);
+  return {r, p};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

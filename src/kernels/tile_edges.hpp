@@ -41,7 +41,7 @@ FASTRT_INLINE void lines_from_setup(const TileFrame& f, const TriangleSetup<Leaf
 }
 
 // Parallel rays: the edges between the projected corners.
-FASTRT_INLINE void lines_from_corners(const TileFrame& f, const ProjectedTriangles& t,
+FASTRT_INLINE void lines_from_corners(const TileFrame& f, const ProjectedCorners& t,
                                       const TriangleReach<LeafF>& reach, EdgeLines& lines) {
   const LeafF x[4] = {t.ax, t.bx, t.cx, t.ax}, y[4] = {t.ay, t.by, t.cy, t.ay};
   const LeafF area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);

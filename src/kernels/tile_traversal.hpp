@@ -174,7 +174,7 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlo
   EdgeLines lines;
   const TriangleReach<LeafF> reach = reach_of(a, b, c, largest(origin));
   if (!f.perspective) {
-    lines_from_corners(f, projected, reach, lines);
+    lines_from_corners(f, projected.corners, reach, lines);
     for (; some != 0; some &= some - 1) {
       const int i = __builtin_ctz(some);
       meet_parallel(tile, run, lines, i, touched[i]);

@@ -224,6 +224,18 @@ FASTRT_INLINE F cull_mul_sub(const F& a, const F& b, const F& c) {
 #endif
 }
 
+// About 1 / a, wrong by 2^-11 of it at most: likewise for culling alone.
+template <class F>
+FASTRT_INLINE F cull_inverse(const F& a) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_rcp14_ps(a.data));
+#endif
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) return F(_mm256_rcp_ps(a.data));
+#endif
+  if constexpr (width_of<F> == 4) return F(_mm_rcp_ps(a.data));
+}
+
 // What shared_math.hpp asks of a batch.
 template <int W>
 struct BatchOps {

@@ -118,6 +118,55 @@ TEST_P(BatchTraversal, WithGapsFindsWhatBruteForceFinds) {
   expect_hits(0.02);
 }
 
+// Rays of one origin that go to a small patch of the scene.
+RayRun fan_to_patch(const Scene& scene, const Vec3& origin, Random& random) {
+  Vec3 forward = target_on(scene, random) - origin;
+  if (!(glm::dot(forward, forward) > 0.0F)) forward = random.direction();
+  forward = glm::normalize(forward / reference::largest_magnitude(forward));
+  return camera_fan(origin, axes_along(forward, random), any_size(random, -12, -2));
+}
+
+// Parallel rays that go to a small patch of the scene.
+RayRun beam_to_patch(const Scene& scene, const Vec3& direction, Random& random) {
+  const Axes axes = axes_along(direction, random);
+  const float radius = extent_of(scene).radius, size = radius * any_size(random, -12, -2);
+  const Vec3 middle = target_on(scene, random) - radius * random.uniform(-0.5F, 3) * axes.forward;
+  RayRun run(batch_size);
+  for (int i = 0; i < batch_size; ++i) {
+    const Vec2 at = size * tile_point(i);
+    run[static_cast<std::size_t>(i)].direction = direction;
+    run[static_cast<std::size_t>(i)].origin = middle + at.x * axes.right + at.y * axes.up;
+  }
+  return run;
+}
+
+// Every group of 16 has rays of the first and of the second run, and some of the third one.
+RayRun across_edges(const RayRun& first, const RayRun& second, const RayRun& third, Random& random) {
+  RayRun run = first;
+  const std::uint32_t share = random.below(8), edge = 1 + random.below(15);
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    if (i % 16 >= edge) run[i] = second[i];
+    if (random.below(64) < share) run[i] = third[i];
+  }
+  return run;
+}
+
+TEST_P(BatchTraversal, AcrossEdgesFindsWhatBruteForceFinds) {
+  Random random(55);
+  for (int i = 0; i < rounds(60); ++i) {
+    const bool one_origin = i % 2 == 0;
+    const Vec3 origin = origin_at(scene(), random), direction = random.direction();
+    const auto to_patch = [&] {
+      return one_origin ? fan_to_patch(scene(), origin, random) : beam_to_patch(scene(), direction, random);
+    };
+    const RayRun first = to_patch(), second = to_patch(), third = to_patch();
+    RayRun run = across_edges(first, second, third, random);
+    vary(run, scene(), one_origin, random);
+    expect_same(run, any_count(random), {one_origin ? BatchShape::common_origin : BatchShape::parallel});
+  }
+  expect_hits(0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, BatchTraversal, testing::ValuesIn(geometry_scenes()), SceneName());
 
 } // namespace
