@@ -21,7 +21,7 @@ FASTRT_INLINE float size_of(Waiting w) { return box_size(static_cast<std::uint32
 // Greater entries no longer matter to a ray that looks no farther than `bound`. For a ray that begins behind
 // its origin all of them do.
 FASTRT_INLINE Waiting waiting_limit(float bound, float t_min) {
-  if (t_min < 0.0F) return ~Waiting{0};
+  if ((__builtin_bit_cast(std::uint32_t, t_min) >> 31U) != 0) return ~Waiting{0}; // -0 as well
   return static_cast<Waiting>(__builtin_bit_cast(std::uint32_t, bound) | size_bits) << 32U | 0xFFFFFFFFU;
 }
 
