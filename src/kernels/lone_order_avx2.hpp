@@ -6,11 +6,6 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Boxes that were met and are not yet on the stack: none.
-struct MetBoxes {};
-FASTRT_INLINE void no_boxes(MetBoxes&) {}
-FASTRT_INLINE Waiting* push_met(const WideNode*, const MetBoxes&, Waiting* top) { return top; }
-
 // Keys are distances whose lowest bits hold the child's place in its node. Each is compared with the one that
 // `swap` puts beside it: the greater stays, in the lanes of `less` (bits) the lesser.
 template <int swap, int less>

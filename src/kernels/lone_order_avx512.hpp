@@ -6,11 +6,6 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Boxes that were met and are not yet on the stack: none.
-struct MetBoxes {};
-FASTRT_INLINE void no_boxes(MetBoxes&) {}
-FASTRT_INLINE Waiting* push_met(const WideNode*, const MetBoxes&, Waiting* top) { return top; }
-
 // Each lane beside that of `others`: the greater stays, in the lanes of `less` (bits) the lesser.
 FASTRT_INLINE __m256i order_lanes(__m256i lanes, __m256i others, __mmask8 less) {
   return _mm256_mask_min_epu64(_mm256_max_epu64(lanes, others), less, lanes, others);
