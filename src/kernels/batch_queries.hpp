@@ -4,7 +4,7 @@
 
 #include "src/kernels/beam_traversal.hpp"
 #include "src/kernels/packed_batch.hpp"
-#include "src/kernels/tile_traversal.hpp"
+#include "src/kernels/pencil_traversal.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -65,21 +65,52 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
 // Rays with gaps between them. (Not for tiles: their groups would become wider.)
 template <bool any>
 [[gnu::noinline]] static void trace_packed(const GeometryView& scene, const RayBatch& rays,
-                                           HitBatch& hits) noexcept {
+                                           const RayBits& looking, HitBatch& hits) noexcept {
   PackedBatch packed;
-  pack_rays(rays, packed);
+  pack_rays(rays, looking, packed);
   clear_hits(packed.rays, packed.hits);
   packed.hits.boxes = packed.hits.primitives = packed.hits.lone = 0;
   trace_tree<any>(scene, packed.rays, packed.hits);
   unpack_hits(packed, hits);
 }
 
+// Rays that are neighbours: what lies in pencils as these, all others in beams and packets.
+template <bool any>
+static void trace_coherent(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  RayBits looking = looking_rays(rays);
+  bool some = false;
+  if (!any && scene.culls != 0 && scene.root != no_child && trace_pencils<any>(scene, rays, looking, hits)) {
+    RayBits ways[6] = {};
+    for (int i = 0; i < rays.count; i += widest) {
+      const std::uint32_t bits = looking.of_group[i / group_size] >> (i % group_size) & register_bits;
+      if (bits == 0) continue;
+      some = true;
+      const V3<PacketF> dir = load_dir(rays, i);
+      const PacketF x = abs(dir.x), y = abs(dir.y), z = abs(dir.z), zero(0.0F);
+      const std::uint32_t along_x = to_bits((x > y) & (x > z)), along_y = to_bits(y > z) & ~along_x, along_z = ~(along_x | along_y);
+      const std::uint32_t nx = to_bits(dir.x < zero), ny = to_bits(dir.y < zero), nz = to_bits(dir.z < zero);
+      const std::uint32_t of[6] = {along_x & nx, along_x & ~nx, along_y & ny, along_y & ~ny, along_z & nz, along_z & ~nz};
+      for (int w = 0; w < 6; ++w) ways[w].of_group[i / group_size] |= (of[w] & bits) << (i % group_size);
+    }
+    if (!some) return;
+    for (const RayBits& way : ways) {
+      std::uint32_t of_way = 0;
+      for (const std::uint32_t bits : way.of_group) of_way |= bits;
+      if (of_way != 0) trace_packed<any>(scene, rays, way, hits);
+    }
+  } else if (has_gaps(looking)) {
+    trace_packed<any>(scene, rays, looking, hits);
+  } else {
+    trace_tree<any>(scene, rays, hits);
+  }
+}
+
 template <bool any>
 static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   clear_hits(rays, hits);
   hits.lone = 0;
-  if (rays.shape == BatchShape::coherent && has_gaps(rays))
-    trace_packed<any>(scene, rays, hits);
+  if (rays.shape == BatchShape::coherent)
+    trace_coherent<any>(scene, rays, hits);
   else
     trace_tree<any>(scene, rays, hits);
   count_tests(hits, hits.lone >> 32U, (hits.lone & 0xFFFFFFFFU) * leaf_lanes);

@@ -21,17 +21,27 @@ FASTRT_INLINE std::uint32_t looking_bits(const RayBatch& rays, int i) {
          (left >= widest ? register_bits : (1U << left) - 1U);
 }
 
-// Whether the rays that may hit something would fill fewer groups than they lie in.
-FASTRT_INLINE bool has_gaps(const RayBatch& rays) {
-  int looking = 0, groups = 0;
-  for (int first = 0; first < rays.count; first += group_size) {
-    int of_group = 0;
-    for (int i = first; i < first + group_size && i < rays.count; i += widest)
-      of_group += __builtin_popcount(looking_bits(rays, i));
-    looking += of_group;
-    groups += of_group != 0;
+// The rays of a batch that take part: bit l of word g is ray 16 g + l.
+struct RayBits {
+  std::uint32_t of_group[batch_groups];
+};
+
+// The rays that may hit something.
+FASTRT_INLINE RayBits looking_rays(const RayBatch& rays) {
+  RayBits looking{};
+  for (int i = 0; i < rays.count; i += widest)
+    looking.of_group[i / group_size] |= looking_bits(rays, i) << (i % group_size);
+  return looking;
+}
+
+// Whether the rays that take part would fill fewer groups than they lie in.
+FASTRT_INLINE bool has_gaps(const RayBits& looking) {
+  int rays = 0, groups = 0;
+  for (const std::uint32_t bits : looking.of_group) {
+    rays += __builtin_popcount(bits);
+    groups += bits != 0;
   }
-  return looking <= (groups - 1) * group_size;
+  return rays <= (groups - 1) * group_size;
 }
 
 FASTRT_INLINE void pack_column(const Compressor& pick, const float* from, float* to) {
@@ -41,9 +51,9 @@ FASTRT_INLINE void pack_column(const Compressor& pick, const std::int32_t* from,
   pick.store(PacketI::load_aligned(from), to);
 }
 
-// Fills `to` with those rays, in their order. Whole registers are written, and fit: no ray comes after its
-// row.
-FASTRT_INLINE void pack_rays(const RayBatch& from, PackedBatch& to) {
+// Fills `to` with the rays that take part, in their order. Whole registers are written, and fit: no ray comes
+// after its row.
+FASTRT_INLINE void pack_rays(const RayBatch& from, const RayBits& looking, PackedBatch& to) {
   RayBatch& out = to.rays;
   out.shape = from.shape;
   int n = 0;
@@ -51,7 +61,7 @@ FASTRT_INLINE void pack_rays(const RayBatch& from, PackedBatch& to) {
   for (int k = 0; k < widest; ++k) lane_numbers[k] = k;
   const PacketI lanes = PacketI::load_aligned(lane_numbers);
   for (int i = 0; i < from.count; i += widest) {
-    const std::uint32_t bits = looking_bits(from, i);
+    const std::uint32_t bits = looking.of_group[i / group_size] >> (i % group_size) & register_bits;
     if (bits == 0) continue;
     const Compressor pick(bits);
     pack_column(pick, from.origin_x + i, out.origin_x + n);

@@ -41,7 +41,8 @@ struct ExtentAxis {
   float offset;            // of the origin along the axis
 };
 
-FASTRT_INLINE ExtentAxis extent_axis(const TileFrame& f, const V3<float>& axis) {
+template <class Frame>
+FASTRT_INLINE ExtentAxis extent_axis(const Frame& f, const V3<float>& axis) {
   return {axis, axis.x < 0.0F ? wide_children : 0, axis.y < 0.0F ? wide_children : 0,
           axis.z < 0.0F ? wide_children : 0, dot(f.origin, axis)};
 }
@@ -69,6 +70,7 @@ FASTRT_INLINE Extent<F> box_extent(const ExtentAxis& a, const float* columns, co
 
 // The projection with what node tests need of it.
 struct TileView {
+  using Points = TilePoints;
   TileFrame frame;
   ExtentAxis u, v, w;
   ExtentAxis
@@ -77,7 +79,8 @@ struct TileView {
   float x0, x1, y0, y1, far; // around all groups
 };
 
-FASTRT_INLINE void bound_view(TileView& view) {
+template <class View>
+FASTRT_INLINE void bound_view(View& view) {
   view.x0 = least_of(view.groups.x0);
   view.x1 = most_of(view.groups.x1);
   view.y0 = least_of(view.groups.y0);

@@ -8,8 +8,8 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// All that a traversal carries.
-template <bool any>
+// All that a traversal carries. View: how the rays are seen.
+template <bool any, class View = TileView>
 struct TileTraversal {
   TileTraversal(const GeometryView& s, const RayBatch& r, HitBatch& h, const LiveRays& l)
       : scene(s), rays(r), hits(h) {
@@ -20,8 +20,8 @@ struct TileTraversal {
   const RayBatch& rays;
   HitBatch& hits;
   std::uint32_t open[batch_groups]; // the rays that still look for a hit: bit l of word g is ray 16 g + l
-  TilePoints points;
-  TileView view;
+  typename View::Points points;
+  View view;
   std::uint32_t nodes = 0, tests = 0;
 };
 
@@ -31,8 +31,8 @@ inline constexpr int many_groups = 3;
 
 // After hits of the rays in `bits` of group g: how far the group still looks. Rays that have a hit look no
 // more if any will do.
-template <bool any>
-FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g, std::uint32_t bits) {
+template <bool any, class View>
+FASTRT_INLINE void shorten_group(TileTraversal<any, View>& tile, int g, std::uint32_t bits) {
   if constexpr (any) {
     tile.open[g] &= ~bits;
     if (tile.open[g] == 0) tile.view.groups.far[g] = -__builtin_inff();
@@ -42,9 +42,9 @@ FASTRT_INLINE void shorten_group(TileTraversal<any>& tile, int g, std::uint32_t 
 }
 
 // One primitive against the rays of group g in `bits`. meet(ray) gives the lanes that it hits and their t.
-template <bool any, class Meet>
-FASTRT_INLINE void meet_group(TileTraversal<any>& tile, int g, std::uint32_t bits, std::int32_t primitive,
-                              const Meet& meet) {
+template <bool any, class View, class Meet>
+FASTRT_INLINE void meet_group(TileTraversal<any, View>& tile, int g, std::uint32_t bits,
+                              std::int32_t primitive, const Meet& meet) {
   tile.tests += static_cast<std::uint32_t>(__builtin_popcount(bits));
   std::uint32_t changed = 0;
   for (int k = 0; k < group_size; k += widest) {
@@ -129,21 +129,27 @@ FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& 
   });
 }
 
-// The same for parallel rays, each with its own origin.
+// Triangle i of a run against the rays of group g in `rays`, each from its own origin.
+template <bool any, class View>
+FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const BlockRun<TriangleBlock>& run, int i,
+                                    int g, std::uint32_t rays) {
+  const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, i), v1 = spread_vertex<PacketF>(run, 1, i),
+                    v2 = spread_vertex<PacketF>(run, 2, i);
+  meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
+    const V3<PacketF> origin = load_origin(tile.rays, ray);
+    const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
+    const TriangleLanes<PacketF> lanes = intersect_triangle(
+        a, b, c, load_dir(tile.rays, ray), largest(origin), rays >> (ray % group_size) & register_bits);
+    return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
+  });
+}
+
+// Triangle i of a run against the groups in `groups`, parallel rays.
 template <bool any>
 FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run,
                                  const EdgeLines& lines, int i, std::uint32_t groups) {
-  for_each_group(tile, lines, i, groups, [&](int g, std::uint32_t rays) {
-    const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, i), v1 = spread_vertex<PacketF>(run, 1, i),
-                      v2 = spread_vertex<PacketF>(run, 2, i);
-    meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
-      const V3<PacketF> origin = load_origin(tile.rays, ray);
-      const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
-      const TriangleLanes<PacketF> lanes = intersect_triangle(
-          a, b, c, load_dir(tile.rays, ray), largest(origin), rays >> (ray % group_size) & register_bits);
-      return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
-    });
-  });
+  for_each_group(tile, lines, i, groups,
+                 [&](int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
 }
 
 // All lanes of a run that hold primitives.
@@ -183,7 +189,8 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlo
 }
 
 // The rectangles of a run's spheres: those of the boxes around them, along the frame's axes.
-FASTRT_INLINE Rectangles<LeafF> project_spheres(const TileFrame& f, const BlockRun<SphereBlock>& run) {
+template <class Frame>
+FASTRT_INLINE Rectangles<LeafF> project_spheres(const Frame& f, const BlockRun<SphereBlock>& run) {
   const V3<LeafF> center = load_centers(run) - broadcast3<LeafF>(f.origin);
   const LeafF reach = load_two<LeafF>(run.low->radius, run.high->radius) + LeafF(f.padding);
   const LeafF u = cull_dot(center, broadcast3<LeafF>(f.u)), v = cull_dot(center, broadcast3<LeafF>(f.v)),
@@ -191,8 +198,8 @@ FASTRT_INLINE Rectangles<LeafF> project_spheres(const TileFrame& f, const BlockR
   return project_extent(f, u - reach, u + reach, v - reach, v + reach, w - reach, w + reach);
 }
 
-template <bool any>
-FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<SphereBlock>& run,
+template <bool any, class View>
+FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const BlockRun<SphereBlock>& run,
                             std::uint32_t groups) {
   std::uint32_t touched[leaf_lanes];
   std::uint32_t some =
@@ -215,11 +222,10 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<SphereBlock
   }
 }
 
-// The rectangles of a run's shapes: those of their boxes.
-FASTRT_INLINE Rectangles<LeafF> project_boxes(const TileFrame& f, const BlockRun<ShapeBlock>& run) {
-  const V3<LeafF> low = load_low(run), high = load_high(run);
-  const V3<LeafF> half = (high - low) * LeafF(0.5F);
-  const V3<LeafF> middle = (low + half) - broadcast3<LeafF>(f.origin);
+// The rectangles of boxes whose corners are given relative to the origin.
+template <class Frame>
+FASTRT_INLINE Rectangles<LeafF> project_box(const Frame& f, const V3<LeafF>& low, const V3<LeafF>& high) {
+  const V3<LeafF> half = (high - low) * LeafF(0.5F), middle = low + half;
   const LeafF padding(f.padding);
   const auto at = [&](const V3<float>& axis) { return cull_dot(middle, broadcast3<LeafF>(axis)); };
   const auto reach = [&](const V3<float>& axis) {
@@ -230,9 +236,16 @@ FASTRT_INLINE Rectangles<LeafF> project_boxes(const TileFrame& f, const BlockRun
   return project_extent(f, u - ru, u + ru, v - rv, v + rv, w - rw, w + rw);
 }
 
+// The rectangles of a run's shapes: those of their boxes.
+template <class Frame>
+FASTRT_INLINE Rectangles<LeafF> project_boxes(const Frame& f, const BlockRun<ShapeBlock>& run) {
+  const V3<LeafF> origin = broadcast3<LeafF>(f.origin);
+  return project_box(f, load_low(run) - origin, load_high(run) - origin);
+}
+
 // An instance against whole groups.
-template <bool any>
-FASTRT_INLINE void meet_instance(TileTraversal<any>& tile, std::int32_t id, std::uint32_t groups) {
+template <bool any, class View>
+FASTRT_INLINE void meet_instance(TileTraversal<any, View>& tile, std::int32_t id, std::uint32_t groups) {
   InstanceVisit visit;
   visit.unit = group_size / widest;
   visit.count = 0;
@@ -248,8 +261,8 @@ FASTRT_INLINE void meet_instance(TileTraversal<any>& tile, std::int32_t id, std:
   }
 }
 
-template <bool any>
-[[gnu::noinline]] static void meet_shapes(TileTraversal<any>& tile, std::uint32_t leaf,
+template <bool any, class View>
+[[gnu::noinline]] static void meet_shapes(TileTraversal<any, View>& tile, std::uint32_t leaf,
                                           std::uint32_t groups) noexcept {
   WaitingInstances waiting;
   for_each_run(tile.scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
@@ -282,8 +295,8 @@ template <bool any>
   }
 }
 
-template <bool any>
-FASTRT_INLINE void meet_leaf(TileTraversal<any>& tile, std::uint32_t leaf, std::uint32_t groups) {
+template <bool any, class View>
+FASTRT_INLINE void meet_leaf(TileTraversal<any, View>& tile, std::uint32_t leaf, std::uint32_t groups) {
   const auto meet = [&](const auto& run) { meet_run(tile, run, groups); };
   if (leaf_group(leaf) == triangle_group)
     for_each_run(tile.scene.triangles, leaf, meet);

@@ -58,8 +58,8 @@ FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode
   return top;
 }
 
-template <bool any>
-FASTRT_INLINE void traverse(TileTraversal<any>& tile) {
+template <bool any, class View>
+FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
   TileEntry stack[max_tree_stack];
   stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff(), 0.0F};
   TileEntry* top = stack + 1;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boxes as a pencil sees them, and triangles as its rays do.
+#pragma once
+
+#include "src/kernels/pencil_setup.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// The part of the plane that a box covers between the pencil's ends, given its extent along u, v, w. (Where a
+// box begins before the rays do, its part there does not matter.)
+template <class F>
+FASTRT_INLINE Rectangles<F> project_extent(const PencilFrame& f, const F& u0, const F& u1, const F& v0,
+                                           const F& v1, const F& w0, const F& w1) {
+  const F one(1.0F), begin = max(w0, F(f.near)), spread_u(f.spread_u), spread_v(f.spread_v);
+  const F wide0 = one / cull_mul_add(spread_u, begin, one), wide1 = one / cull_mul_add(spread_u, w1, one);
+  const F high0 = one / cull_mul_add(spread_v, begin, one), high1 = one / cull_mul_add(spread_v, w1, one);
+  return {min(u0 * wide0, u0 * wide1), max(u1 * wide0, u1 * wide1), min(v0 * high0, v0 * high1),
+          max(v1 * high0, v1 * high1), w0};
+}
+
+FASTRT_INLINE void touch_children(const PencilView& view, const WideNode& node, std::uint32_t groups,
+                                  TouchedChildren& out) {
+  using N = Floats<node_lanes>;
+  const N padding(view.frame.padding);
+  out.bits = 0;
+  for (int half = 0; half < wide_children; half += node_lanes) {
+    const float* const columns = node.lower_x + half;
+    const Extent<N> w = box_extent(view.w, columns, padding);
+    const Extent<N> u = box_extent(view.u, columns, padding);
+    const Extent<N> v = box_extent(view.v, columns, padding);
+    const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
+    const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
+                          (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
+    const std::uint32_t bits = to_bits(met);
+    r.near.store_aligned(out.near + half);
+    if (bits != 0) out.bits |= touch_groups(view.groups, r, bits, groups, out.groups + half) << half;
+  }
+}
+
+// The edges of triangles as the pencil sees them: a * x + b * y + c (and d * x * y, which goes to the
+// margin), positive inside.
+struct PencilEdge {
+  LeafF a, b, c, d;
+  LeafF normal_u, normal_v; // of the plane through the edge and the origin
+};
+
+// From corner p to corner q: which way the pencil's ray at (x, y) turns around the edge. The ray passes
+// through (x, y, 0) along (spread_u * x, spread_v * y, 1).
+FASTRT_INLINE PencilEdge edge_between(const PencilFrame& f, const V3<LeafF>& p, const V3<LeafF>& q) {
+  const V3<LeafF> e = q - p;
+  const LeafF nx = cull_mul_sub(p.y, q.z, p.z * q.y), ny = cull_mul_sub(p.z, q.x, p.x * q.z),
+              nz = cull_mul_sub(p.x, q.y, p.y * q.x);
+  return {cull_mul_sub(LeafF(f.spread_u), nx, e.y),
+          cull_mul_add(LeafF(f.spread_v), ny, e.x),
+          nz,
+          LeafF(f.spread_v - f.spread_u) * e.z,
+          nx,
+          ny};
+}
+
+// What an edge's line can be wrong by, and the tolerance of the triangle's test: a share of the triangle's
+// size times its distance.
+inline constexpr float pencil_line_margin = 0x1p-16F;
+
+// The edges of a run's triangles. Those that some ray may see edge-on are `unsure`: they turn either way, and
+// their margin lies apart.
+struct PencilEdges {
+  EdgeLines lines;
+  alignas(32) float margin[leaf_lanes];
+  std::uint32_t unsure;
+};
+
+// Corners relative to the frame's origin. A ray that hits a triangle passes its box at a point P, and the
+// pencil's ray through P differs from it by its slope alone; so its edges may be missed by what the slopes'
+// difference makes of the triangle, and by what the test lets through.
+FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<LeafF>& a, const V3<LeafF>& b,
+                                   const V3<LeafF>& c, const LeafF& side, PencilEdges& out) {
+  const PencilFrame& f = view.frame;
+  const auto seen = [&](const V3<LeafF>& p) {
+    return V3<LeafF>{cull_dot(p, broadcast3<LeafF>(f.u)), cull_dot(p, broadcast3<LeafF>(f.v)),
+                     cull_dot(p, broadcast3<LeafF>(f.w))};
+  };
+  const V3<LeafF> p = seen(a), q = seen(b), r = seen(c);
+  const PencilEdge edges[3] = {edge_between(f, p, q), edge_between(f, q, r), edge_between(f, r, p)};
+  const LeafF most_x(view.most_x), most_y(view.most_y), most_xy(view.most_x * view.most_y);
+  const LeafF away = max(largest(p), max(largest(q), largest(r))) + LeafF(f.largest_begin);
+  const LeafF lets = side * (away * LeafF(pencil_line_margin)), slope(f.stray_slope);
+  const LeafF normal = max(abs((edges[0].normal_u + edges[1].normal_u) + edges[2].normal_u),
+                           abs((edges[0].normal_v + edges[1].normal_v) + edges[2].normal_v));
+  const LeafF turns_off = slope * normal, turn = (edges[0].c + edges[1].c) + edges[2].c;
+  const LeafF turns_by = cull_mul_add(abs((edges[0].a + edges[1].a) + edges[2].a), most_x,
+                                      cull_mul_add(abs((edges[0].b + edges[1].b) + edges[2].b), most_y,
+                                                   cull_mul_add(LeafF(16.0F), lets, turns_off)));
+  const MaskOf<LeafF> sure = abs(turn) > turns_by;
+  out.unsure = ~to_bits(sure);
+  const LeafF zero(0.0F), sign = select(sure, sign_bit(turn), zero), square = side * side;
+  const LeafF margin = cull_mul_add(LeafF(2.0F), turns_off, cull_mul_add(slope * square, LeafF(0.5F), lets));
+  LeafF most = zero;
+  for (int e = 0; e < 3; ++e) {
+    const PencilEdge& line = edges[e];
+    const LeafF strays = cull_mul_add(abs(line.a), LeafF(f.stray_x),
+                                      cull_mul_add(abs(line.b), LeafF(f.stray_y), abs(line.d) * most_xy));
+    most = max(most, strays);
+    store_line(out.lines, e, flip(line.a, sign), flip(line.b, sign),
+               flip(line.c, sign) + select(sure, strays + margin, zero));
+  }
+  (most + cull_mul_add(slope * square, LeafF(5.0F), lets)).store_aligned(out.margin);
+}
+
+// The rays of group g that an unsure triangle may lie around: as seen along each of them, its corners turn
+// one way.
+FASTRT_INLINE std::uint32_t rays_turned_around(const TilePoints& points, const PencilEdges& edges, int i,
+                                               int g) {
+  const PacketF margin(edges.margin[i]);
+  std::uint32_t bits = 0;
+  for (int k = 0; k < group_size; k += widest) {
+    const PacketF x = PacketF::load_aligned(points.x + g * group_size + k),
+                  y = PacketF::load_aligned(points.y + g * group_size + k);
+    const auto at = [&](int e) {
+      return cull_mul_add(PacketF(edges.lines.a[e][i]), x,
+                          cull_mul_add(PacketF(edges.lines.b[e][i]), y, PacketF(edges.lines.c[e][i])));
+    };
+    const PacketF p = at(0), q = at(1), r = at(2);
+    bits |= to_bits((min(p, min(q, r)) >= negate(margin)) | (max(p, max(q, r)) <= margin)) << k;
+  }
+  return bits;
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole batches of rays that smooth surfaces have mirrored or refracted through the wide tree, as tiles whose
+// rays are seen along a pencil.
+#pragma once
+
+#include "src/kernels/beam_setup.hpp"
+#include "src/kernels/packed_batch.hpp"
+#include "src/kernels/pencil_culling.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// Fewer rays than this are no pencil; they go as beams.
+inline constexpr int least_pencil = 32;
+// Pencils of a batch at most, and groups that are tried in vain.
+inline constexpr int max_pencils = 8, max_pencil_failures = 2;
+
+template <bool any>
+FASTRT_INLINE void meet_run(TileTraversal<any, PencilView>& tile, const BlockRun<TriangleBlock>& run,
+                            std::uint32_t groups) {
+  const PencilFrame& f = tile.view.frame;
+  const V3<LeafF> origin = broadcast3<LeafF>(f.origin);
+  const V3<LeafF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
+                  c = load_vertices(run, 2) - origin;
+  // All hits lie in a triangle's box, not in the triangle as the pencil sees it: that may be edge-on.
+  const V3<LeafF> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
+  const V3<LeafF> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
+  std::uint32_t touched[leaf_lanes];
+  std::uint32_t some =
+      touch_groups(tile.view.groups, project_box(f, low, high), lanes_of(run), groups, touched);
+  if (some == 0) return;
+  PencilEdges edges;
+  lines_in_pencil(tile.view, a, b, c, largest(high - low), edges);
+  for (; some != 0; some &= some - 1) {
+    const int i = __builtin_ctz(some);
+    const bool unsure = (edges.unsure >> i & 1U) != 0;
+    std::uint32_t left =
+        unsure ? touched[i] : groups_inside_edges(tile.view.groups, edges.lines, i, touched[i]);
+    for (; left != 0; left &= left - 1) {
+      const int g = __builtin_ctz(left);
+      const std::uint32_t inside = unsure ? rays_turned_around(tile.points, edges, i, g)
+                                          : rays_inside_edges(tile.points, edges.lines, i, g);
+      if ((inside & tile.open[g]) != 0) meet_own_origins(tile, run, i, g, inside & tile.open[g]);
+    }
+  }
+}
+
+// The largest |coordinate| of the live rays' origins.
+FASTRT_INLINE float largest_origin(const RayBatch& rays, const LiveRays& live) {
+  PacketF most(0.0F);
+  for (int i = 0; i < rays.count; i += widest) {
+    const PacketM mask = from_bits<widest>(live.bits[i / group_size] >> (i % group_size) & register_bits);
+    most = max(select(mask, largest(load_origin(rays, i)), PacketF(0.0F)), most);
+  }
+  return reduce_max(most);
+}
+
+// Traces those of the live rays that a pencil through group `seed` fits, and takes them out of `live`. False,
+// and nothing done, if they are few.
+template <bool any>
+static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, float size,
+                         int seed, LiveRays& live) noexcept {
+  TileTraversal<any, PencilView> tile(scene, rays, hits, live);
+  PencilView& view = tile.view;
+  PencilFrame& f = view.frame;
+  f.size = size;
+  if (!fit_pencil(scene, rays, seed, live.bits[seed], f)) return false;
+  PencilErrors errors{PacketF(0.0F), PacketF(0.0F), PacketF(0.0F), PacketF(0.0F)};
+  const auto place_group = [&](int g) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < group_size; k += widest)
+      bits |= place_rays(f, rays, g * group_size + k, live.bits[g] >> k & register_bits, tile.points, errors)
+              << k;
+    return bits;
+  };
+  if (__builtin_popcount(place_group(seed)) * 4 < __builtin_popcount(live.bits[seed]) * 3) return false;
+  int count = 0;
+  for (int g = 0; g < batch_groups; ++g) {
+    tile.open[g] = place_group(g);
+    count += __builtin_popcount(tile.open[g]);
+  }
+  if (count < least_pencil) return false;
+  bound_groups(tile.points, errors, view);
+  for (int g = 0; g < batch_groups; ++g) {
+    view.groups.far[g] =
+        tile.open[g] == 0 ? -__builtin_inff() : group_far(hits, view.groups, tile.open[g], g);
+    live.bits[g] &= ~tile.open[g];
+  }
+  aim_view(view);
+  traverse(tile);
+  count_tests(hits, tile.nodes, tile.tests);
+  return true;
+}
+
+// Traces what of the batch lies in pencils and takes it out of `looking`; false if there is none. hits:
+// cleared by the caller.
+template <bool any>
+static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBits& looking,
+                          HitBatch& hits) noexcept {
+  LiveRays live = find_live_rays(rays);
+  if (live.first < 0 || live.backwards) return false;
+  const float most = largest_origin(rays, live), size = larger(most, scene.largest_coordinate);
+  if (!(most <= far_origin * scene.largest_coordinate && size < beam_limit && size > 1.0F / beam_limit))
+    return false;
+  int pencils = 0, failures = 0;
+  for (int g = 0; g < batch_groups && pencils < max_pencils && failures < max_pencil_failures * (1 + pencils); ++g) {
+    if (__builtin_popcount(live.bits[g]) < group_size / 2) continue;
+    if (trace_pencil<any>(scene, rays, hits, size, g, live))
+      ++pencils;
+    else
+      ++failures;
+  }
+  // (Rays that are not live hit nothing.)
+  for (int g = 0; g < batch_groups; ++g) looking.of_group[g] = live.bits[g];
+  return pencils != 0;
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE

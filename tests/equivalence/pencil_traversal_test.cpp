@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Astigmatic pencils, as flat and smoothly curved surfaces make of an eye's rays, through the kernels of
+// every ISA against brute force: equal bits. Exact pencils, rough ones, and several in one batch.
+#include "tests/equivalence/batch_traversal.hpp"
+
+namespace fastrt::test {
+namespace {
+
+class PencilTraversal : public BatchTraversal {};
+
+// Towards the scene, or along some triangle's plane.
+Vec3 way_to(const Scene& scene, const Vec3& origin, Random& random) {
+  Vec3 forward = target_on(scene, random) - origin;
+  if (random.below(5) == 0) forward = along_triangle(scene, 0, random).direction;
+  if (!(glm::dot(forward, forward) > 0.0F)) forward = random.direction();
+  return glm::normalize(forward / reference::largest_magnitude(forward));
+}
+
+// One over the distance of a focal line behind the rays' origins, or now and then before them.
+float any_spread(float radius, Random& random) {
+  const float spread = any_size(random, -6, 2) / radius;
+  return random.below(6) == 0 ? 0.0F : random.below(6) == 0 ? -0.05F * spread : spread;
+}
+
+// Rays that leave a tilted plane. astray: what is wrong with their slopes, as a share of what these differ
+// by.
+RayRun pencil(const Scene& scene, float astray, Random& random) {
+  const float radius = extent_of(scene).radius, size = radius * any_size(random, -10, -1);
+  const Vec3 middle = origin_at(scene, random);
+  const Axes axes = axes_along(way_to(scene, middle, random), random);
+  const bool one_eye = random.below(2) == 0;
+  const float spread_x = any_spread(radius, random),
+              spread_y = one_eye ? spread_x : any_spread(radius, random);
+  const Vec2 tilt(random.uniform(-2, 2), random.uniform(-2, 2));
+  const float error = astray * size * (std::fabs(spread_x) + std::fabs(spread_y));
+  RayRun run(batch_size);
+  for (int i = 0; i < batch_size; ++i) {
+    const Vec2 at = size * tile_point(i);
+    const float depth = glm::dot(tilt, at);
+    const Vec2 slope(spread_x * at.x + error * random.uniform(-1, 1),
+                     spread_y * at.y + error * random.uniform(-1, 1));
+    Ray& ray = run[static_cast<std::size_t>(i)];
+    ray.direction = (axes.forward + slope.x * axes.right) + slope.y * axes.up;
+    ray.origin = ((middle + at.x * axes.right) + at.y * axes.up) + depth * ray.direction;
+  }
+  return run;
+}
+
+TEST_P(PencilTraversal, OfExactPencilsFindsWhatBruteForceFinds) {
+  Random random(61);
+  for (int i = 0; i < rounds(200); ++i) {
+    RayRun run = pencil(scene(), 0.0F, random);
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::coherent});
+  }
+  expect_hits(0.02);
+}
+
+TEST_P(PencilTraversal, OfRoughPencilsFindsWhatBruteForceFinds) {
+  Random random(62);
+  for (int i = 0; i < rounds(200); ++i) {
+    RayRun run = pencil(scene(), any_size(random, -12, -1), random);
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::coherent});
+  }
+  expect_hits(0.02);
+}
+
+TEST_P(PencilTraversal, OfSeveralPencilsFindsWhatBruteForceFinds) {
+  Random random(63);
+  for (int i = 0; i < rounds(100); ++i) {
+    const RayRun first = pencil(scene(), 0.0F, random), second = pencil(scene(), 0.01F, random),
+                 third = pencil(scene(), 0.0F, random);
+    RayRun run = across_edges(first, second, third, random);
+    // Whole groups of one surface, as tiles have that an edge goes through.
+    for (std::size_t k = 0; k < run.size(); ++k)
+      if (k / 16 % 3 != 0) run[k] = k / 16 % 3 == 1 ? first[k] : second[k];
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::coherent});
+  }
+  expect_hits(0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PencilTraversal, testing::ValuesIn(geometry_scenes()), SceneName());
+
+} // namespace
+} // namespace fastrt::test
