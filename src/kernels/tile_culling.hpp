@@ -78,10 +78,11 @@ struct TileView {
 };
 
 FASTRT_INLINE void bound_view(TileView& view) {
-  view.x0 = least_of(view.groups.x0);
-  view.x1 = most_of(view.groups.x1);
-  view.y0 = least_of(view.groups.y0);
-  view.y1 = most_of(view.groups.y1);
+  const GroupBounds bounds = bounds_of(view.groups);
+  view.x0 = bounds.x0;
+  view.x1 = bounds.x1;
+  view.y0 = bounds.y0;
+  view.y1 = bounds.y1;
   view.far = most_of(view.groups.far);
 }
 
@@ -95,6 +96,7 @@ FASTRT_INLINE void aim_view(TileView& view) {
   view.u = extent_axis(f, f.u);
   view.v = extent_axis(f, f.v);
   view.w = extent_axis(f, f.w);
+  if (!f.perspective) return;
   view.sides[0] = extent_axis(f, tilted(f.u, f.w, 1.0F, view.x0));
   view.sides[1] = extent_axis(f, tilted(f.u, f.w, -1.0F, view.x1));
   view.sides[2] = extent_axis(f, tilted(f.v, f.w, 1.0F, view.y0));
