@@ -120,7 +120,7 @@ FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, f
 
 // With this many groups or fewer, each is held against all rectangles at once; else each rectangle against
 // all groups.
-inline constexpr int few_groups = 4;
+inline constexpr int few_groups = 6;
 
 // The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
 // `lanes`; 0 elsewhere. Returns the lanes that touch any.
