@@ -68,6 +68,7 @@ template <bool any>
                                            const RayBits& looking, HitBatch& hits) noexcept {
   PackedBatch packed;
   pack_rays(rays, looking, packed);
+  if (packed.rays.count == 0) return;
   clear_hits(packed.rays, packed.hits);
   packed.hits.boxes = packed.hits.primitives = packed.hits.lone = 0;
   trace_tree<any>(scene, packed.rays, packed.hits);
@@ -78,31 +79,11 @@ template <bool any>
 template <bool any>
 static void trace_coherent(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   RayBits looking = looking_rays(rays);
-  bool some = false;
-  if (!any && scene.culls != 0 && scene.root != no_child && trace_pencils<any>(scene, rays, looking, hits)) {
-    RayBits ways[6] = {};
-    for (int i = 0; i < rays.count; i += widest) {
-      const std::uint32_t bits = looking.of_group[i / group_size] >> (i % group_size) & register_bits;
-      if (bits == 0) continue;
-      some = true;
-      const V3<PacketF> dir = load_dir(rays, i);
-      const PacketF x = abs(dir.x), y = abs(dir.y), z = abs(dir.z), zero(0.0F);
-      const std::uint32_t along_x = to_bits((x > y) & (x > z)), along_y = to_bits(y > z) & ~along_x, along_z = ~(along_x | along_y);
-      const std::uint32_t nx = to_bits(dir.x < zero), ny = to_bits(dir.y < zero), nz = to_bits(dir.z < zero);
-      const std::uint32_t of[6] = {along_x & nx, along_x & ~nx, along_y & ny, along_y & ~ny, along_z & nz, along_z & ~nz};
-      for (int w = 0; w < 6; ++w) ways[w].of_group[i / group_size] |= (of[w] & bits) << (i % group_size);
-    }
-    if (!some) return;
-    for (const RayBits& way : ways) {
-      std::uint32_t of_way = 0;
-      for (const std::uint32_t bits : way.of_group) of_way |= bits;
-      if (of_way != 0) trace_packed<any>(scene, rays, way, hits);
-    }
-  } else if (has_gaps(looking)) {
+  const bool pencils = !any && scene.culls != 0 && scene.root != no_child;
+  if ((pencils && trace_pencils(scene, rays, looking, hits)) || has_gaps(looking))
     trace_packed<any>(scene, rays, looking, hits);
-  } else {
+  else
     trace_tree<any>(scene, rays, hits);
-  }
 }
 
 template <bool any>

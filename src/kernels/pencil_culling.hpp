@@ -107,10 +107,19 @@ FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<LeafF>& a, c
   (most + cull_mul_add(slope * square, LeafF(5.0F), lets)).store_aligned(out.margin);
 }
 
-// The rays of group g that an unsure triangle may lie around: as seen along each of them, its corners turn
-// one way.
-FASTRT_INLINE std::uint32_t rays_turned_around(const TilePoints& points, const PencilEdges& edges, int i,
-                                               int g) {
+// Of the groups in `bits`, those whose rectangle reaches inside all edges of triangle i; all, if it is
+// unsure.
+FASTRT_INLINE std::uint32_t groups_inside_edges(const TileGroups& groups, const PencilEdges& edges, int i,
+                                                std::uint32_t bits) {
+  if ((edges.unsure >> i & 1U) != 0) return bits;
+  return groups_inside_edges(groups, edges.lines, i, bits);
+}
+
+// The rays of group g that triangle i may lie around. As seen along each of them, the corners of an unsure
+// one turn one way.
+FASTRT_INLINE std::uint32_t rays_inside_edges(const TilePoints& points, const PencilEdges& edges, int i,
+                                              int g) {
+  if ((edges.unsure >> i & 1U) == 0) return rays_inside_edges(points, edges.lines, i, g);
   const PacketF margin(edges.margin[i]);
   std::uint32_t bits = 0;
   for (int k = 0; k < group_size; k += widest) {

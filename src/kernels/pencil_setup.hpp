@@ -6,8 +6,15 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
+// The rays as points of the plane, and what else bounds their groups; negated where the largest is sought.
+// Rays that take no part are infinite.
+struct alignas(64) PencilPoints : TilePoints {
+  float minus_x[batch_size], minus_y[batch_size];
+  float begin[batch_size], minus_begin[batch_size], minus_scale[batch_size];
+};
+
 struct PencilView {
-  using Points = TilePoints;
+  using Points = PencilPoints;
   PencilFrame frame;
   ExtentAxis u, v, w;
   TileGroups groups;
@@ -24,7 +31,7 @@ struct PencilErrors {
 // Rays i .. of the batch as points of the plane; returns those of `live` (bits) that the pencil fits. A ray's
 // place changes with depth one way only: it lies between where the ray begins and where it leaves the scene.
 FASTRT_INLINE std::uint32_t place_rays(const PencilFrame& f, const RayBatch& rays, int i, std::uint32_t live,
-                                       TilePoints& points, PencilErrors& errors) {
+                                       PencilPoints& points, PencilErrors& errors) {
   const PencilRays r = see_rays(f, rays, i);
   const V3<PacketF> dir = load_dir(rays, i);
   const PacketF one(1.0F), half(0.5F), zero(0.0F), nothing(__builtin_inff());
@@ -51,8 +58,8 @@ FASTRT_INLINE std::uint32_t place_rays(const PencilFrame& f, const RayBatch& ray
   select(mask, y, nothing).store_aligned(points.y + i);
   select(mask, negate(x), nothing).store_aligned(points.minus_x + i);
   select(mask, negate(y), nothing).store_aligned(points.minus_y + i);
-  select(mask, r.begin, nothing).store_aligned(points.offset + i);
-  select(mask, negate(r.begin), nothing).store_aligned(points.minus_offset + i);
+  select(mask, r.begin, nothing).store_aligned(points.begin + i);
+  select(mask, negate(r.begin), nothing).store_aligned(points.minus_begin + i);
   select(mask, negate(r.scale), nothing).store_aligned(points.minus_scale + i);
   return bits;
 }
@@ -68,7 +75,7 @@ FASTRT_INLINE void widen_groups(const PencilFrame& f, float* low, float* high, f
   }
 }
 
-FASTRT_INLINE void bound_groups(const TilePoints& points, const PencilErrors& errors, PencilView& view) {
+FASTRT_INLINE void bound_groups(const PencilPoints& points, const PencilErrors& errors, PencilView& view) {
   TileGroups& groups = view.groups;
   PencilFrame& f = view.frame;
   f.stray_x = reduce_max(errors.x);
@@ -80,11 +87,11 @@ FASTRT_INLINE void bound_groups(const TilePoints& points, const PencilErrors& er
   min_of_groups(points.y, groups.y0);
   max_of_groups(points.minus_y, groups.y1);
   max_of_groups(points.minus_scale, groups.depth_scale);
-  max_of_groups(points.minus_offset, groups.depth_offset);
+  max_of_groups(points.minus_begin, groups.depth_offset);
   widen_groups(f, groups.x0, groups.x1, f.spread_u, f.stray_x);
   widen_groups(f, groups.y0, groups.y1, f.spread_v, f.stray_y);
   alignas(64) float begin[batch_groups];
-  min_of_groups(points.offset, begin);
+  min_of_groups(points.begin, begin);
   f.near = least_of(begin) - f.padding;
 }
 

@@ -14,9 +14,9 @@ inline constexpr int least_pencil = 32;
 // Pencils of a batch at most, and groups that are tried in vain.
 inline constexpr int max_pencils = 8, max_pencil_failures = 2;
 
-template <bool any>
-FASTRT_INLINE void meet_run(TileTraversal<any, PencilView>& tile, const BlockRun<TriangleBlock>& run,
-                            std::uint32_t groups) {
+using PencilTraversal = TileTraversal<false, PencilView>;
+
+FASTRT_INLINE void meet_run(PencilTraversal& tile, const BlockRun<TriangleBlock>& run, std::uint32_t groups) {
   const PencilFrame& f = tile.view.frame;
   const V3<LeafF> origin = broadcast3<LeafF>(f.origin);
   const V3<LeafF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
@@ -25,23 +25,13 @@ FASTRT_INLINE void meet_run(TileTraversal<any, PencilView>& tile, const BlockRun
   const V3<LeafF> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
   const V3<LeafF> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
   std::uint32_t touched[leaf_lanes];
-  std::uint32_t some =
+  const std::uint32_t some =
       touch_groups(tile.view.groups, project_box(f, low, high), lanes_of(run), groups, touched);
   if (some == 0) return;
   PencilEdges edges;
   lines_in_pencil(tile.view, a, b, c, largest(high - low), edges);
-  for (; some != 0; some &= some - 1) {
-    const int i = __builtin_ctz(some);
-    const bool unsure = (edges.unsure >> i & 1U) != 0;
-    std::uint32_t left =
-        unsure ? touched[i] : groups_inside_edges(tile.view.groups, edges.lines, i, touched[i]);
-    for (; left != 0; left &= left - 1) {
-      const int g = __builtin_ctz(left);
-      const std::uint32_t inside = unsure ? rays_turned_around(tile.points, edges, i, g)
-                                          : rays_inside_edges(tile.points, edges.lines, i, g);
-      if ((inside & tile.open[g]) != 0) meet_own_origins(tile, run, i, g, inside & tile.open[g]);
-    }
-  }
+  for_each_pair(tile, run, edges, some, touched,
+                [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
 }
 
 // The largest |coordinate| of the live rays' origins.
@@ -56,10 +46,9 @@ FASTRT_INLINE float largest_origin(const RayBatch& rays, const LiveRays& live) {
 
 // Traces those of the live rays that a pencil through group `seed` fits, and takes them out of `live`. False,
 // and nothing done, if they are few.
-template <bool any>
 static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, float size,
                          int seed, LiveRays& live) noexcept {
-  TileTraversal<any, PencilView> tile(scene, rays, hits, live);
+  PencilTraversal tile(scene, rays, hits, live);
   PencilView& view = tile.view;
   PencilFrame& f = view.frame;
   f.size = size;
@@ -93,7 +82,6 @@ static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBat
 
 // Traces what of the batch lies in pencils and takes it out of `looking`; false if there is none. hits:
 // cleared by the caller.
-template <bool any>
 static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBits& looking,
                           HitBatch& hits) noexcept {
   LiveRays live = find_live_rays(rays);
@@ -102,9 +90,10 @@ static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBi
   if (!(most <= far_origin * scene.largest_coordinate && size < beam_limit && size > 1.0F / beam_limit))
     return false;
   int pencils = 0, failures = 0;
-  for (int g = 0; g < batch_groups && pencils < max_pencils && failures < max_pencil_failures * (1 + pencils); ++g) {
+  for (int g = 0; g < batch_groups && pencils < max_pencils && failures < max_pencil_failures * (1 + pencils);
+       ++g) {
     if (__builtin_popcount(live.bits[g]) < group_size / 2) continue;
-    if (trace_pencil<any>(scene, rays, hits, size, g, live))
+    if (trace_pencil(scene, rays, hits, size, g, live))
       ++pencils;
     else
       ++failures;

@@ -81,10 +81,11 @@ struct TileView {
 
 template <class View>
 FASTRT_INLINE void bound_view(View& view) {
-  view.x0 = least_of(view.groups.x0);
-  view.x1 = most_of(view.groups.x1);
-  view.y0 = least_of(view.groups.y0);
-  view.y1 = most_of(view.groups.y1);
+  const GroupBounds bounds = bounds_of(view.groups);
+  view.x0 = bounds.x0;
+  view.x1 = bounds.x1;
+  view.y0 = bounds.y0;
+  view.y1 = bounds.y1;
   view.far = most_of(view.groups.far);
 }
 
@@ -98,6 +99,7 @@ FASTRT_INLINE void aim_view(TileView& view) {
   view.u = extent_axis(f, f.u);
   view.v = extent_axis(f, f.v);
   view.w = extent_axis(f, f.w);
+  if (!f.perspective) return;
   view.sides[0] = extent_axis(f, tilted(f.u, f.w, 1.0F, view.x0));
   view.sides[1] = extent_axis(f, tilted(f.u, f.w, -1.0F, view.x1));
   view.sides[2] = extent_axis(f, tilted(f.v, f.w, 1.0F, view.y0));
@@ -121,7 +123,7 @@ FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, f
 
 // With this many groups or fewer, each is held against all rectangles at once; else each rectangle against
 // all groups.
-inline constexpr int few_groups = 4;
+inline constexpr int few_groups = 6;
 
 // The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
 // `lanes`; 0 elsewhere. Returns the lanes that touch any.
@@ -214,36 +216,47 @@ struct ProjectedTriangles {
   ProjectedCorners corners;
 };
 
-// What the three edges let through together, with rounding, as a share of the triangle's distance.
-inline constexpr float edge_share = 0x1.8p-18F;
-
-// How far outside a triangle's rectangle its test may still let a ray hit it, at most: what an edge lets
-// through, as a share of the triangle's area in the plane, times the rectangle's longer side
-// (docs/numerics.md, "Triangle"). All rays in the plane of a triangle seen edge-on hit it that its box lets
-// through. far: the greatest depth, or 1 for parallel rays; deep: the depths' difference, times 5 in
-// perspective; share: what edges let
-// through in space, over the least depth squared.
-FASTRT_INLINE LeafF beyond_edges(const ProjectedCorners& p, const LeafF& far, const LeafF& deep,
-                                 const LeafF& share) {
-  const LeafF bx = p.bx - p.ax, by = p.by - p.ay, cx = p.cx - p.ax, cy = p.cy - p.ay;
-  const LeafF area = abs(cull_mul_sub(bx, cy, by * cx));
-  const LeafF extent = (abs(bx) + abs(cx)) + (abs(by) + abs(cy));
-  const LeafF length = cull_mul_add(extent, far, deep);
-  // Of triangles that are a point of the plane nothing is known.
-  const LeafF least(1e-30F);
-  return cull_mul_add(share * extent, length, least) * cull_inverse(max(area, LeafF(1e-37F)));
+// The rectangles around corners.
+FASTRT_INLINE Rectangles<LeafF> bound_corners(const ProjectedCorners& p, const LeafF& near) {
+  return {min(p.ax, min(p.bx, p.cx)), max(p.ax, max(p.bx, p.cx)), min(p.ay, min(p.by, p.cy)),
+          max(p.ay, max(p.by, p.cy)), near};
 }
 
-// The rectangles around the corners, larger by `margin` and by what is beyond the edges; in perspective the
-// farther out the more.
-FASTRT_INLINE Rectangles<LeafF> bound_corners(const ProjectedCorners& p, const LeafF& near,
-                                              const LeafF& margin, const LeafF& beyond, bool perspective) {
-  const LeafF x0 = min(p.ax, min(p.bx, p.cx)), x1 = max(p.ax, max(p.bx, p.cx)),
-              y0 = min(p.ay, min(p.by, p.cy)), y1 = max(p.ay, max(p.by, p.cy)), m = margin + beyond,
-              one(1.0F);
-  if (!perspective) return {x0 - m, x1 + m, y0 - m, y1 + m, near};
-  const LeafF mx = ((abs(x0) + abs(x1)) + one) * m, my = ((abs(y0) + abs(y1)) + one) * m;
-  return {x0 - mx, x1 + mx, y0 - my, y1 + my, near};
+FASTRT_INLINE Rectangles<LeafF> widened(const Rectangles<LeafF>& r, const LeafF& mx, const LeafF& my) {
+  return {r.x0 - mx, r.x1 + mx, r.y0 - my, r.y1 + my, r.near};
+}
+
+// How far outside a triangle's rectangle its test may still let a ray hit it: side * share over the
+// triangle's area in the plane (docs/numerics.md, "Triangle"). That has no bound where the triangle is seen
+// edge-on: all rays in its plane hit it that its box lets through.
+FASTRT_INLINE LeafF beyond_edges(const ProjectedCorners& p, const LeafF& side, const LeafF& share) {
+  const LeafF area = abs(cull_mul_sub(p.bx - p.ax, p.cy - p.ay, (p.by - p.ay) * (p.cx - p.ax)));
+  // Of triangles that are a point of the plane nothing is known.
+  return cull_mul_add(side, share, LeafF(1e-30F)) * cull_inverse(area);
+}
+
+// The rectangles in which parallel rays may hit triangles. deep: the difference of the depths.
+FASTRT_INLINE Rectangles<LeafF> bound_parallel(const ProjectedCorners& p, const LeafF& near,
+                                               const LeafF& deep, const LeafF& padding) {
+  const Rectangles<LeafF> r = bound_corners(p, near);
+  const LeafF width = r.x1 - r.x0, height = r.y1 - r.y0;
+  const LeafF share = ((width + height) + deep) * (LeafF(3.0F) * padding);
+  const LeafF margin = padding + beyond_edges(p, max(width, height), share);
+  return widened(r, margin, margin);
+}
+
+// The same for rays of one origin; the farther out the larger. scale: one over the least depth.
+FASTRT_INLINE Rectangles<LeafF> bound_perspective(const ProjectedCorners& p, const LeafF& near,
+                                                  const LeafF& far, const LeafF& scale,
+                                                  const LeafF& padding) {
+  const Rectangles<LeafF> r = bound_corners(p, near);
+  const LeafF one(1.0F), x = (abs(r.x0) + abs(r.x1)) + one, y = abs(r.y0) + abs(r.y1), out = x + y;
+  const LeafF width = r.x1 - r.x0, height = r.y1 - r.y0, extent = width + height;
+  const LeafF share = cull_mul_add(extent + out, cull_mul_sub(far, scale, one), extent);
+  // A hit may lie outside its triangle by rounding: by a share of the plane, and by the padding in space.
+  const LeafF margin = cull_mul_add(padding, scale, LeafF(rectangle_margin)) +
+                       beyond_edges(p, max(width, height) * (out * LeafF(0x1p-17F)), share);
+  return widened(r, x * margin, (y + one) * margin);
 }
 
 // Of triangles that reach behind the origin, those that may have points inside all four sides of the batch. A
@@ -271,17 +284,13 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
                   w = broadcast3<LeafF>(view.frame.w);
   const LeafF aw = cull_dot(a, w), bw = cull_dot(b, w), cw = cull_dot(c, w);
   const LeafF padding(view.frame.padding), one(1.0F);
-  const LeafF near = min(aw, min(bw, cw)) - padding, far = max(aw, max(bw, cw)), deep = far - near;
+  const LeafF near = min(aw, min(bw, cw)) - padding, far = max(aw, max(bw, cw));
   ProjectedCorners p{cull_dot(a, u), cull_dot(a, v), cull_dot(b, u),
                      cull_dot(b, v), cull_dot(c, u), cull_dot(c, v)};
-  if (!view.frame.perspective)
-    return {bound_corners(p, near, padding, beyond_edges(p, one, deep, LeafF(1.5F) * padding), false), p};
+  if (!view.frame.perspective) return {bound_parallel(p, near, far - near, padding), p};
   const LeafF ai = one / aw, bi = one / bw, ci = one / cw, scale = max(ai, max(bi, ci));
   p = {p.ax * ai, p.ay * ai, p.bx * bi, p.by * bi, p.cx * ci, p.cy * ci};
-  // A hit may lie outside its triangle by rounding: by a share of the plane, and by the padding in space.
-  const LeafF margin = cull_mul_add(padding, scale, LeafF(rectangle_margin));
-  const LeafF beyond = beyond_edges(p, far, LeafF(5.0F) * deep, ((LeafF(edge_share) * far) * scale) * scale);
-  Rectangles<LeafF> r = bound_corners(p, near, margin, beyond, true);
+  Rectangles<LeafF> r = bound_perspective(p, near, far, scale, padding);
   const MaskOf<LeafF> around = near <= LeafF(0.0F);
   if (to_bits(around) == 0) return {r, p};
   const LeafF everywhere(__builtin_inff()), nowhere = negate(everywhere);

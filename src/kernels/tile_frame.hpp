@@ -65,24 +65,60 @@ FASTRT_INLINE V3<float> part_across(const V3<float>& a, const V3<float>& w) {
   return {a.x - along * w.x, a.y - along * w.y, a.z - along * w.z};
 }
 
-// A direction across w, along `hint` if that says anything. Twice over: where the hint runs almost along w,
-// the first time leaves an error that far rays would see.
+// A direction across w, along `hint` if that says anything. Twice over where the hint runs along w: the first
+// time leaves an error then that far rays would see.
 FASTRT_INLINE V3<float> direction_across(const V3<float>& w, const V3<float>& hint) {
   const V3<float> across = part_across(hint, w);
-  const float length2 = dot(across, across);
-  if (length2 > 1e-6F * dot(hint, hint) && length2 > 1e-30F) return unit(part_across(unit(across), w));
+  const float length2 = dot(across, across), hint2 = dot(hint, hint);
+  if (length2 > 0.25F * hint2 && length2 > 1e-30F) return unit(across);
+  if (length2 > 1e-6F * hint2 && length2 > 1e-30F) return unit(part_across(unit(across), w));
   const float ax = __builtin_fabsf(w.x), ay = __builtin_fabsf(w.y), az = __builtin_fabsf(w.z);
   if (ax <= ay && ax <= az) return unit({0.0F, w.z, -w.y});
   if (ay <= az) return unit({-w.z, 0.0F, w.x});
   return unit({w.y, -w.x, 0.0F});
 }
 
-// Smallest (or, negated, largest) of four groups' four lanes each.
-FASTRT_INLINE Floats<4> min_of_rows(const Floats<4>& a, const Floats<4>& b, const Floats<4>& c,
-                                    const Floats<4>& d) {
-  const __m128 ab = _mm_min_ps(_mm_unpacklo_ps(a.data, b.data), _mm_unpackhi_ps(a.data, b.data));
-  const __m128 cd = _mm_min_ps(_mm_unpacklo_ps(c.data, d.data), _mm_unpackhi_ps(c.data, d.data));
-  return _mm_min_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab));
+// Lanes of a and b in turn, of the first or of the second two lanes of each four; and pairs of lanes
+// likewise.
+template <class F>
+FASTRT_INLINE F interleave_low(const F& a, const F& b) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_unpacklo_ps(a.data, b.data));
+#endif
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) return F(_mm256_unpacklo_ps(a.data, b.data));
+#endif
+  if constexpr (width_of<F> == 4) return F(_mm_unpacklo_ps(a.data, b.data));
+}
+template <class F>
+FASTRT_INLINE F interleave_high(const F& a, const F& b) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_unpackhi_ps(a.data, b.data));
+#endif
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) return F(_mm256_unpackhi_ps(a.data, b.data));
+#endif
+  if constexpr (width_of<F> == 4) return F(_mm_unpackhi_ps(a.data, b.data));
+}
+template <class F>
+FASTRT_INLINE F low_pairs(const F& a, const F& b) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_shuffle_ps(a.data, b.data, 0x44));
+#endif
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) return F(_mm256_shuffle_ps(a.data, b.data, 0x44));
+#endif
+  if constexpr (width_of<F> == 4) return F(_mm_shuffle_ps(a.data, b.data, 0x44));
+}
+template <class F>
+FASTRT_INLINE F high_pairs(const F& a, const F& b) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) return F(_mm512_shuffle_ps(a.data, b.data, 0xEE));
+#endif
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) return F(_mm256_shuffle_ps(a.data, b.data, 0xEE));
+#endif
+  if constexpr (width_of<F> == 4) return F(_mm_shuffle_ps(a.data, b.data, 0xEE));
 }
 template <class F>
 FASTRT_INLINE Floats<4> fold_min(const F& a) {
@@ -97,17 +133,25 @@ FASTRT_INLINE Floats<4> fold_min(const F& a) {
         Floats<8>(_mm256_min_ps(_mm512_castps512_ps256(a.data), _mm512_extractf32x8_ps(a.data, 1))));
 #endif
 }
-// The least of 16 values that lie in a row of memory, folded to four.
-FASTRT_INLINE Floats<4> fold_group(const float* values) {
+// The smallest lane of each of four registers.
+template <class F>
+FASTRT_INLINE Floats<4> min_of_rows(const F& a, const F& b, const F& c, const F& d) {
+  const F ab = min(interleave_low(a, b), interleave_high(a, b));
+  const F cd = min(interleave_low(c, d), interleave_high(c, d));
+  return fold_min(F(min(low_pairs(ab, cd), high_pairs(ab, cd))));
+}
+
+// A group's lanes folded to one register.
+FASTRT_INLINE PacketF least_lanes(const float* values) {
   PacketF least = PacketF::load_aligned(values);
   for (int k = widest; k < group_size; k += widest) least = min(least, PacketF::load_aligned(values + k));
-  return fold_min(least);
+  return least;
 }
 // out[g] = the least of values[16 g .. 16 g + 15].
 FASTRT_INLINE void min_of_groups(const float* values, float* out) {
   for (int g = 0; g < batch_groups; g += 4)
-    min_of_rows(fold_group(values + g * group_size), fold_group(values + (g + 1) * group_size),
-                fold_group(values + (g + 2) * group_size), fold_group(values + (g + 3) * group_size))
+    min_of_rows(least_lanes(values + g * group_size), least_lanes(values + (g + 1) * group_size),
+                least_lanes(values + (g + 2) * group_size), least_lanes(values + (g + 3) * group_size))
         .store_aligned(out + g);
 }
 FASTRT_INLINE void max_of_groups(const float* negated_values, float* out) {
@@ -116,15 +160,30 @@ FASTRT_INLINE void max_of_groups(const float* negated_values, float* out) {
     negate(PacketF::load_aligned(out + g)).store_aligned(out + g);
 }
 
-FASTRT_INLINE float least_of(const float* groups) {
+FASTRT_INLINE PacketF least_lanes_of(const float* groups) {
   PacketF least = PacketF::load_aligned(groups);
   for (int g = widest; g < batch_groups; g += widest) least = min(least, PacketF::load_aligned(groups + g));
-  return reduce_min(least);
+  return least;
 }
-FASTRT_INLINE float most_of(const float* groups) {
+FASTRT_INLINE PacketF most_lanes_of(const float* groups) {
   PacketF most = PacketF::load_aligned(groups);
   for (int g = widest; g < batch_groups; g += widest) most = max(most, PacketF::load_aligned(groups + g));
-  return reduce_max(most);
+  return most;
+}
+FASTRT_INLINE float least_of(const float* groups) { return reduce_min(least_lanes_of(groups)); }
+FASTRT_INLINE float most_of(const float* groups) { return reduce_max(most_lanes_of(groups)); }
+
+// Around all groups' rectangles.
+struct GroupBounds {
+  float x0, x1, y0, y1;
+};
+
+FASTRT_INLINE GroupBounds bounds_of(const TileGroups& groups) {
+  alignas(16) float ends[4];
+  min_of_rows(least_lanes_of(groups.x0), negate(most_lanes_of(groups.x1)), least_lanes_of(groups.y0),
+              negate(most_lanes_of(groups.y1)))
+      .store_aligned(ends);
+  return {ends[0], -ends[1], ends[2], -ends[3]};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -100,28 +100,64 @@ FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
   return broadcast3<PacketF>(s.columns[column][i], s.columns[column + 1][i], s.columns[column + 2][i]);
 }
 
-// The rays of triangle i's groups that its edges let through: act(group, rays).
-template <bool any, class Act>
-FASTRT_INLINE void for_each_group(const TileTraversal<any>& tile, const EdgeLines& lines, int i,
-                                  std::uint32_t groups, const Act& act) {
-  if (__builtin_popcount(groups) > many_groups)
-    groups = groups_inside_edges(tile.view.groups, lines, i, groups);
-  for (; groups != 0; groups &= groups - 1) {
-    const int g = __builtin_ctz(groups);
-    const std::uint32_t rays = rays_inside_edges(tile.points, lines, i, g) & tile.open[g];
-    if (rays != 0) act(g, rays);
+// A triangle of a run and the rays of a group that its edges let through.
+struct MetPair {
+  std::int32_t triangle, group;
+  std::uint32_t rays;
+};
+
+// The rays of group g that a primitive is excluded for: often those of the surface that they leave or go to,
+// which all of them would be tested against.
+FASTRT_INLINE std::uint32_t rays_that_exclude(const RayBatch& rays, int g, std::int32_t primitive) {
+  const PacketI id(primitive);
+  std::uint32_t bits = 0;
+  for (int k = 0; k < group_size; k += widest)
+    bits |= to_bits(simd::bool_cast(PacketI::load_aligned(rays.exclude + g * group_size + k) == id)) << k;
+  return bits;
+}
+
+// What the edges of a run's triangles let through of the groups that they touch: act(triangle, group, rays).
+// First all triangles against their groups' corners, then all pairs against the rays, then what is left:
+// three loops whose ends and branches can be foreseen better than those of loops in each other.
+template <bool any, class View, class Edges, class Act>
+FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const BlockRun<TriangleBlock>& run,
+                                 const Edges& edges, std::uint32_t some, const std::uint32_t* touched,
+                                 const Act& act) {
+  constexpr int at_once = 64 / batch_groups;
+  std::uint64_t pairs[leaf_lanes / at_once] = {};
+  for (; some != 0; some &= some - 1) {
+    const int i = __builtin_ctz(some);
+    std::uint32_t groups = touched[i];
+    if (__builtin_popcount(groups) > many_groups)
+      groups = groups_inside_edges(tile.view.groups, edges, i, groups);
+    pairs[i / at_once] |= static_cast<std::uint64_t>(groups) << (i % at_once * batch_groups);
+  }
+  MetPair met[leaf_lanes * batch_groups];
+  int count = 0;
+  for (int first = 0; first < leaf_lanes; first += at_once)
+    for (std::uint64_t left = pairs[first / at_once]; left != 0; left &= left - 1) {
+      const int bit = __builtin_ctzll(left), i = first + bit / batch_groups, g = bit % batch_groups;
+      const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
+                                 ~rays_that_exclude(tile.rays, g, run.primitive(i));
+      met[count] = {i, g, rays};
+      count += rays != 0 ? 1 : 0;
+    }
+  for (int k = 0; k < count; ++k) {
+    const std::uint32_t rays = any ? met[k].rays & tile.open[met[k].group] : met[k].rays;
+    if (rays != 0) act(met[k].triangle, met[k].group, rays);
   }
 }
 
-// Triangle i of a run against the groups in `groups`, all rays from one origin.
+// The triangles of a run in `some` against the groups that they touch, all rays from one origin.
 template <bool any>
-FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockSetup& block, const EdgeLines& lines,
-                                    int i, std::int32_t primitive, std::uint32_t groups) {
-  for_each_group(tile, lines, i, groups, [&](int g, std::uint32_t rays) {
+FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run,
+                                    const BlockSetup& block, const EdgeLines& lines, std::uint32_t some,
+                                    const std::uint32_t* touched) {
+  for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
     const TriangleSetup<PacketF> setup{spread(block, 0, i), spread(block, 3, i), spread(block, 6, i),
                                        spread(block, 9, i), PacketF(block.columns[12][i])};
     const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
-    meet_group(tile, g, rays, primitive, [&](int ray) -> MetLanes {
+    meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
       const TriangleLanes<PacketF> lanes = intersect_triangle(
           setup, load_dir(tile.rays, ray), rays >> (ray % group_size) & register_bits, reach);
       return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
@@ -144,12 +180,12 @@ FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const BlockR
   });
 }
 
-// Triangle i of a run against the groups in `groups`, parallel rays.
+// The triangles of a run in `some` against the groups that they touch, parallel rays.
 template <bool any>
 FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const BlockRun<TriangleBlock>& run,
-                                 const EdgeLines& lines, int i, std::uint32_t groups) {
-  for_each_group(tile, lines, i, groups,
-                 [&](int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
+                                 const EdgeLines& lines, std::uint32_t some, const std::uint32_t* touched) {
+  for_each_pair(tile, run, lines, some, touched,
+                [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
 }
 
 // All lanes of a run that hold primitives.
@@ -167,25 +203,19 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlo
                   c = load_vertices(run, 2) - origin;
   const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
   std::uint32_t touched[leaf_lanes];
-  std::uint32_t some = touch_groups(tile.view.groups, projected.bounds, lanes_of(run), groups, touched);
+  const std::uint32_t some = touch_groups(tile.view.groups, projected.bounds, lanes_of(run), groups, touched);
   if (some == 0) return;
   EdgeLines lines;
   const TriangleReach<LeafF> reach = reach_of(a, b, c, largest(origin));
   if (!f.perspective) {
     lines_from_corners(f, projected.corners, reach, lines);
-    for (; some != 0; some &= some - 1) {
-      const int i = __builtin_ctz(some);
-      meet_parallel(tile, run, lines, i, touched[i]);
-    }
+    meet_parallel(tile, run, lines, some, touched);
     return;
   }
   const TriangleSetup<LeafF> setup = set_up_triangle(a, b, c);
   lines_from_setup(f, setup, reach, lines);
   const BlockSetup stored = store_setup(setup, reach);
-  for (; some != 0; some &= some - 1) {
-    const int i = __builtin_ctz(some);
-    meet_from_origin(tile, stored, lines, i, run.primitive(i), touched[i]);
-  }
+  meet_from_origin(tile, run, stored, lines, some, touched);
 }
 
 // The rectangles of a run's spheres: those of the boxes around them, along the frame's axes.

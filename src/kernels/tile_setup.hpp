@@ -18,13 +18,16 @@ FASTRT_INLINE LiveRays find_live_rays(const RayBatch& rays) {
   live.first = live.last = -1;
   live.backwards = false;
   const PacketF zero(0.0F), most(__builtin_inff());
+  const bool one_origin = rays.shape == BatchShape::common_origin;
   for (int i = 0; i < rays.count; i += widest) {
-    const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-    const PacketF finite = ((abs(origin.x) + abs(origin.y)) + abs(origin.z)) * zero;
     const PacketF size = (abs(dir.x) + abs(dir.y)) + abs(dir.z);
-    const PacketM alive = (finite == zero) & (size > zero) & (size < most) &
-                          (load<PacketF>(rays.t_min + i) < load<PacketF>(rays.t_max + i));
+    PacketM alive =
+        (size > zero) & (size < most) & (load<PacketF>(rays.t_min + i) < load<PacketF>(rays.t_max + i));
+    if (!one_origin) {
+      const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+      alive = alive & (((abs(origin.x) + abs(origin.y)) + abs(origin.z)) * zero == zero);
+    }
     const int left = rays.count - i;
     const std::uint32_t bits = to_bits(alive) & (left >= widest ? ~0U : (1U << left) - 1U);
     live.bits[i / group_size] |= bits << (i % group_size);
@@ -33,17 +36,28 @@ FASTRT_INLINE LiveRays find_live_rays(const RayBatch& rays) {
     live.last = i + 31 - __builtin_clz(bits);
     live.backwards = live.backwards || (to_bits(load<PacketF>(rays.t_min + i) < zero) & bits) != 0;
   }
+  if (one_origin && live.first >= 0) {
+    const V3<float> origin = ray_origin(rays, live.first);
+    const float size = __builtin_fabsf(origin.x) + __builtin_fabsf(origin.y) + __builtin_fabsf(origin.z);
+    if (!(size < __builtin_inff())) return LiveRays{{}, -1, -1, false};
+  }
   return live;
 }
 
-// The middle of the live rays' directions.
+FASTRT_INLINE PacketM live_lanes(const LiveRays& live, int i) {
+  return from_bits<widest>(live.bits[i / group_size] >> (i % group_size) & register_bits);
+}
+
+FASTRT_INLINE float sum_of(const PacketF& a) { return simd::hadd(a); }
+
+// About the middle of the live rays' directions: that of rays at the ends of the batch and between.
 FASTRT_INLINE V3<float> middle_direction(const RayBatch& rays, const LiveRays& live) {
-  V3<float> sum{0.0F, 0.0F, 0.0F};
-  for (int g = 0; g < batch_groups; ++g) {
+  const V3<float> first = ray_dir(rays, live.first), last = ray_dir(rays, live.last);
+  V3<float> sum{first.x + last.x, first.y + last.y, first.z + last.z};
+  for (int g = batch_groups / 3; g < batch_groups - 1; g += batch_groups / 3) {
     if (live.bits[g] == 0) continue;
-    const V3<float> a = ray_dir(rays, g * group_size + __builtin_ctz(live.bits[g]));
-    const V3<float> b = ray_dir(rays, g * group_size + 31 - __builtin_clz(live.bits[g]));
-    sum = {sum.x + (a.x + b.x), sum.y + (a.y + b.y), sum.z + (a.z + b.z)};
+    const V3<float> between = ray_dir(rays, g * group_size + __builtin_ctz(live.bits[g]));
+    sum = {sum.x + between.x, sum.y + between.y, sum.z + between.z};
   }
   return unit(sum);
 }
@@ -72,63 +86,79 @@ FASTRT_INLINE float larger(float a, float b) { return a > b ? a : b; }
 FASTRT_INLINE float magnitude(float a) { return __builtin_fabsf(a); }
 
 // The frame's margin and near end, once the rays' places are known.
-FASTRT_INLINE void bound_frame(const GeometryView& scene, float least_offset, const TileGroups& groups,
-                               TileFrame& f) {
+FASTRT_INLINE void bound_frame(const GeometryView& scene, float least_offset, const GroupBounds& bounds,
+                               float largest_offset, TileFrame& f) {
   float size = larger(magnitude(f.origin.x), larger(magnitude(f.origin.y), magnitude(f.origin.z)));
   if (!f.perspective) {
-    size = larger(size, larger(magnitude(least_of(groups.x0)), magnitude(most_of(groups.x1))));
-    size = larger(size, larger(magnitude(least_of(groups.y0)), magnitude(most_of(groups.y1))));
-    size = larger(size, larger(magnitude(least_offset), magnitude(most_of(groups.depth_offset))));
+    size = larger(size, larger(magnitude(bounds.x0), magnitude(bounds.x1)));
+    size = larger(size, larger(magnitude(bounds.y0), magnitude(bounds.y1)));
+    size = larger(size, larger(magnitude(least_offset), magnitude(largest_offset)));
   }
   f.padding = 2.0F * box_padding * larger(size, scene.largest_coordinate);
   f.near = least_offset - f.padding;
 }
 
-// The rays as points of the plane, negated where the largest is sought; rays that take no part count as
-// +infinity.
+// The rays as points of the plane. Those of rays that take no part mean nothing.
 struct alignas(64) TilePoints {
-  float x[batch_size], y[batch_size], minus_x[batch_size], minus_y[batch_size];
-  float minus_scale[batch_size], minus_offset[batch_size], offset[batch_size];
+  float x[batch_size], y[batch_size];
 };
 
-// Points of rays i ..; returns the lanes that look forward well enough to be projected.
-FASTRT_INLINE PacketM project_rays(const TileFrame& f, const RayBatch& rays, std::uint32_t live, int i,
-                                   TilePoints& points) {
+// What bounds a group, by lanes: the ends of its rectangle, the upper ones negated, and the ends of d.w or,
+// of parallel rays, of origin.w.
+struct GroupLanes {
+  PacketF x0, minus_x1, y0, minus_y1, depth, minus_depth;
+};
+
+// Projects the rays of a group; false if some don't look forward well enough.
+FASTRT_INLINE bool project_group(const TileFrame& f, const RayBatch& rays, const LiveRays& live, int g,
+                                 TilePoints& points, GroupLanes& out) {
   const PacketF nothing(__builtin_inff());
   const V3<PacketF> u = broadcast3<PacketF>(f.u), v = broadcast3<PacketF>(f.v), w = broadcast3<PacketF>(f.w);
-  const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-  const PacketF scale = cull_dot(dir, w);
-  PacketF x, y, offset(0.0F);
-  if (f.perspective) {
-    const PacketF inverse = PacketF(1.0F) / scale;
-    x = cull_dot(dir, u) * inverse;
-    y = cull_dot(dir, v) * inverse;
-  } else {
-    const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
-    x = cull_dot(origin, u);
-    y = cull_dot(origin, v);
-    offset = cull_dot(origin, w);
+  out = {nothing, nothing, nothing, nothing, nothing, nothing};
+  std::uint32_t ahead = 0;
+  for (int k = 0; k < group_size; k += widest) {
+    const int i = g * group_size + k;
+    const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+    const PacketF scale = cull_dot(dir, w);
+    PacketF x, y, depth = scale;
+    if (f.perspective) {
+      const PacketF inverse = PacketF(1.0F) / scale;
+      x = cull_dot(dir, u) * inverse;
+      y = cull_dot(dir, v) * inverse;
+    } else {
+      const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+      x = cull_dot(origin, u);
+      y = cull_dot(origin, v);
+      depth = cull_dot(origin, w);
+    }
+    x.store_aligned(points.x + i);
+    y.store_aligned(points.y + i);
+    const PacketM mask = live_lanes(live, i);
+    const auto include = [&](PacketF& least, const PacketF& value) {
+      least = min(least, select(mask, value, nothing));
+    };
+    include(out.x0, x);
+    include(out.minus_x1, negate(x));
+    include(out.y0, y);
+    include(out.minus_y1, negate(y));
+    if (!f.perspective) include(out.depth, depth);
+    include(out.minus_depth, negate(depth));
+    ahead |= to_bits((scale * scale > PacketF(0.25F) * dot(dir, dir)) & (scale > PacketF(0.0F))) << k;
   }
-  const PacketM mask = from_bits<widest>(live);
-  select(mask, x, nothing).store_aligned(points.x + i);
-  select(mask, y, nothing).store_aligned(points.y + i);
-  select(mask, negate(x), nothing).store_aligned(points.minus_x + i);
-  select(mask, negate(y), nothing).store_aligned(points.minus_y + i);
-  select(mask, negate(scale), nothing).store_aligned(points.minus_scale + i);
-  select(mask, negate(offset), nothing).store_aligned(points.minus_offset + i);
-  select(mask, offset, nothing).store_aligned(points.offset + i);
-  return (scale * scale > PacketF(0.25F) * dot(dir, dir)) & (scale > PacketF(0.0F));
+  return (live.bits[g] & ~ahead) == 0;
 }
 
 // Whether the groups' rectangles lie side by side, more or less. Scattered rays share few nodes: traced as
 // one, each would be shown what all the others need.
-FASTRT_INLINE bool groups_are_compact(const TileGroups& groups) {
-  float sum = 0.0F;
-  for (int g = 0; g < batch_groups; ++g)
-    if (groups.x0[g] <= groups.x1[g]) sum += (groups.x1[g] - groups.x0[g]) * (groups.y1[g] - groups.y0[g]);
-  const float width = most_of(groups.x1) - least_of(groups.x0);
-  const float height = most_of(groups.y1) - least_of(groups.y0);
-  return sum <= 1.2F * width * height;
+FASTRT_INLINE bool groups_are_compact(const TileGroups& groups, const GroupBounds& bounds) {
+  const PacketF zero(0.0F);
+  PacketF sum = zero;
+  for (int g = 0; g < batch_groups; g += widest) {
+    const PacketF x0 = PacketF::load_aligned(groups.x0 + g), x1 = PacketF::load_aligned(groups.x1 + g);
+    const PacketF height = PacketF::load_aligned(groups.y1 + g) - PacketF::load_aligned(groups.y0 + g);
+    sum = sum + select(x0 <= x1, (x1 - x0) * height, zero);
+  }
+  return sum_of(sum) <= 1.2F * (bounds.x1 - bounds.x0) * (bounds.y1 - bounds.y0);
 }
 
 // What became of rays that were to be projected: too wide, they can't be seen from one plane; scattered, they
@@ -137,21 +167,34 @@ enum class Projection { done, too_wide, scattered };
 
 FASTRT_INLINE Projection project_batch(const GeometryView& scene, const RayBatch& rays, const LiveRays& live,
                                        TileFrame& f, TilePoints& points, TileGroups& groups) {
-  for (int i = 0; i < batch_size; i += widest) {
-    const std::uint32_t bits =
-        (live.bits[i / group_size] >> (i % group_size)) & ((1U << (widest - 1)) * 2U - 1U);
-    if ((to_bits(project_rays(f, rays, bits, i, points)) & bits) != bits) return Projection::too_wide;
+  alignas(64) float depth[batch_groups], minus_depth[batch_groups];
+  for (int g = 0; g < batch_groups; g += 4) {
+    GroupLanes p[4];
+    bool ahead = true;
+    for (int k = 0; k < 4; ++k) ahead = project_group(f, rays, live, g + k, points, p[k]) && ahead;
+    if (!ahead) return Projection::too_wide;
+    const auto store = [&](PacketF GroupLanes::*part, float* to) {
+      min_of_rows(p[0].*part, p[1].*part, p[2].*part, p[3].*part).store_aligned(to + g);
+    };
+    const auto store_negated = [&](PacketF GroupLanes::*part, float* to) {
+      negate(min_of_rows(p[0].*part, p[1].*part, p[2].*part, p[3].*part)).store_aligned(to + g);
+    };
+    store(&GroupLanes::x0, groups.x0);
+    store_negated(&GroupLanes::minus_x1, groups.x1);
+    store(&GroupLanes::y0, groups.y0);
+    store_negated(&GroupLanes::minus_y1, groups.y1);
+    if (!f.perspective) store(&GroupLanes::depth, depth);
+    store_negated(&GroupLanes::minus_depth, minus_depth);
   }
-  min_of_groups(points.x, groups.x0);
-  min_of_groups(points.y, groups.y0);
-  max_of_groups(points.minus_x, groups.x1);
-  max_of_groups(points.minus_y, groups.y1);
-  if (!groups_are_compact(groups)) return Projection::scattered;
-  max_of_groups(points.minus_scale, groups.depth_scale);
-  max_of_groups(points.minus_offset, groups.depth_offset);
-  alignas(64) float least_offset[batch_groups];
-  min_of_groups(points.offset, least_offset);
-  bound_frame(scene, least_of(least_offset), groups, f);
+  const GroupBounds bounds = bounds_of(groups);
+  if (!groups_are_compact(groups, bounds)) return Projection::scattered;
+  const PacketF zero(0.0F), scale(f.perspective ? 0.0F : dot(ray_dir(rays, live.first), f.w));
+  for (int g = 0; g < batch_groups; g += widest) {
+    const PacketF most = PacketF::load_aligned(minus_depth + g);
+    (f.perspective ? most : scale).store_aligned(groups.depth_scale + g);
+    (f.perspective ? zero : most).store_aligned(groups.depth_offset + g);
+  }
+  bound_frame(scene, f.perspective ? 0.0F : least_of(depth), bounds, most_of(groups.depth_offset), f);
   return Projection::done;
 }
 
@@ -160,7 +203,7 @@ FASTRT_INLINE float group_far(const HitBatch& hits, const TileGroups& groups, st
   const int first = g * group_size;
   PacketF most(0.0F);
   for (int k = 0; k < group_size; k += widest) {
-    const PacketM mask = from_bits<widest>((live >> k) & ((1U << (widest - 1)) * 2U - 1U));
+    const PacketM mask = from_bits<widest>((live >> k) & register_bits);
     most = max(most, select(mask, PacketF::load_aligned(hits.t + first + k), PacketF(0.0F)));
   }
   const float begin = groups.depth_offset[g], way = reduce_max(most) * groups.depth_scale[g];
