@@ -226,6 +226,9 @@ FASTRT_INLINE Rectangles<LeafF> widened(const Rectangles<LeafF>& r, const LeafF&
   return {r.x0 - mx, r.x1 + mx, r.y0 - my, r.y1 + my, r.near};
 }
 
+// What edges let through together, with rounding: at a distance of 1, and of parallel rays in paddings.
+inline constexpr float edge_share = 0x1p-17F, edge_paddings = 3.0F;
+
 // How far outside a triangle's rectangle its test may still let a ray hit it: side * share over the
 // triangle's area in the plane (docs/numerics.md, "Triangle"). That has no bound where the triangle is seen
 // edge-on: all rays in its plane hit it that its box lets through.
@@ -240,7 +243,7 @@ FASTRT_INLINE Rectangles<LeafF> bound_parallel(const ProjectedCorners& p, const 
                                                const LeafF& deep, const LeafF& padding) {
   const Rectangles<LeafF> r = bound_corners(p, near);
   const LeafF width = r.x1 - r.x0, height = r.y1 - r.y0;
-  const LeafF share = ((width + height) + deep) * (LeafF(3.0F) * padding);
+  const LeafF share = ((width + height) + deep) * (LeafF(edge_paddings) * padding);
   const LeafF margin = padding + beyond_edges(p, max(width, height), share);
   return widened(r, margin, margin);
 }
@@ -255,7 +258,7 @@ FASTRT_INLINE Rectangles<LeafF> bound_perspective(const ProjectedCorners& p, con
   const LeafF share = cull_mul_add(extent + out, cull_mul_sub(far, scale, one), extent);
   // A hit may lie outside its triangle by rounding: by a share of the plane, and by the padding in space.
   const LeafF margin = cull_mul_add(padding, scale, LeafF(rectangle_margin)) +
-                       beyond_edges(p, max(width, height) * (out * LeafF(0x1p-17F)), share);
+                       beyond_edges(p, max(width, height) * (out * LeafF(edge_share)), share);
   return widened(r, x * margin, (y + one) * margin);
 }
 
