@@ -67,7 +67,7 @@ static void traverse_beam(BeamTraversal<any>& t) noexcept {
     const BeamEntry entry = *--top;
     const std::uint64_t rays = still_looking(t, entry);
     if (rays == 0) continue;
-    if (__builtin_popcountll(rays) <= lone_beam_rays) {
+    if (__builtin_popcountll(rays) <= lone_beam_rays && !is_leaf(entry.child)) {
       go_on_alone(t, entry.child, rays);
       continue;
     }
