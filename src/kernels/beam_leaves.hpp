@@ -3,7 +3,7 @@
 // takes fewer tests; spheres and shapes are tested with a register of rays.
 #pragma once
 
-#include "src/kernels/beam_culling.hpp"
+#include "src/kernels/beam_children.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -24,7 +24,7 @@ template <bool any>
 FASTRT_INLINE void shorten_group(BeamTraversal<any>& t, int g, std::uint32_t bits) {
   if constexpr (any) t.open &= ~(static_cast<std::uint64_t>(bits) << (g * group_size));
   const std::uint32_t open = rays_of_group(t.open, g);
-  t.beam.groups[g].far = beam_far(t.beam, t.hits, t.first, g, open);
+  set_far(t.beam, g, beam_far(t.beam, t.hits, t.first, g, open));
 }
 
 // One primitive against the rays of group g in `bits`.
@@ -133,12 +133,14 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>
       padded(place_corners(run, beam.y, zero, zero, f.v), padding),
       padded(place_corners(run, beam.z, LeafF(beam.backwards ? -0.0F : 0.0F), LeafF(beam.depth), f.w),
              padding)};
+  std::uint32_t touched[group_steps];
+  touch_boxes(beam, e, touched);
   const LeafF side = max(e.u.high - e.u.low, max(e.v.high - e.v.low, e.w.high - e.w.low));
   (side * LeafF(4.0F * beam.padding)).store_aligned(f.margin);
   for (int g = 0; g < beam_groups; ++g) {
     const std::uint32_t group = rays_of_group(rays, g);
     if (group == 0) continue;
-    const Candidates found = find_candidates(beam, f, touch_beam(beam.groups[g], e).touched, g, group);
+    const Candidates found = find_candidates(beam, f, boxes_of_group(touched, g), g, group);
     if (found.rays == 0) continue;
     const std::uint32_t changed = __builtin_popcount(found.rays) * widest <= found.triangles * lone_test_share
                                       ? meet_run_alone(t, run, g, found)
@@ -198,9 +200,7 @@ template <bool any>
 FASTRT_INLINE void meet_waiting(BeamTraversal<any>& t, WaitingInstances& waiting) {
   while (waiting.count != 0) {
     const int i = waiting.take();
-    std::uint64_t rays = waiting.rays[i];
-    for (int g = 0; g < beam_groups; ++g)
-      if (!(t.beam.groups[g].far >= waiting.near[i])) rays &= ~(0xFFFFULL << (g * group_size));
+    const std::uint64_t rays = waiting.rays[i] & rays_as_far_as(t.beam, waiting.near[i]);
     if (rays != 0) meet_instance(t, waiting.id[i], rays);
   }
 }
@@ -209,13 +209,15 @@ template <bool any>
 [[gnu::noinline]] static void meet_shapes(BeamTraversal<any>& t, const BlockRun<ShapeBlock>& run,
                                           std::uint64_t rays) noexcept {
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
+  std::uint32_t touched[group_steps];
+  touch_boxes(t.beam, e, touched);
   std::uint64_t visitors[leaf_lanes] = {}; // of instances
   std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
     const std::uint32_t group = rays_of_group(rays, g);
     if (group == 0) continue;
     std::uint32_t changed = 0;
-    for (std::uint32_t lanes = touch_beam(t.beam.groups[g], e).touched; lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = boxes_of_group(touched, g); lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
       const std::int32_t id = run.primitive(lane);
       if (id < 0 || lane >= run.lanes) continue;
