@@ -95,21 +95,33 @@ FASTRT_INLINE PacketM touch_boxes(const Beam& beam, int step, const GroupRectang
          (e.w.high >= GroupedF(0.0F)) & (e.w.low <= of_groups(beam.far, step));
 }
 
-FASTRT_INLINE void touch_boxes(const Beam& beam, const Extents<LeafF>& e,
-                               std::uint32_t (&touched)[group_steps]) {
-  const Grouped boxes = for_groups(e);
-  for (int step = 0; step < group_steps; ++step)
-    touched[step] =
-        to_bits(touch_boxes(beam, step, rectangles_of(beam.groups, step, boxes.w.low, boxes.w.high), boxes));
+// Places of pairs of a group and a lane among bits: pair_lanes * group + lane.
+inline constexpr int pair_lanes = 8;
+
+// Bits of lanes (in turn for the groups of a step) to bits of places.
+FASTRT_INLINE std::uint32_t places_of(std::uint32_t lanes, int step) {
+#if defined(__AVX512DQ__)
+  return (_pext_u32(lanes, 0x5555U) | _pext_u32(lanes, 0xAAAAU) << pair_lanes) << (2 * step * pair_lanes);
+#else
+  return lanes << (step * pair_lanes);
+#endif
 }
 
-// Bits of lanes as touch_boxes() gives them for all steps: those of group g's boxes.
-FASTRT_INLINE std::uint32_t boxes_of_group(const std::uint32_t (&steps)[group_steps], int g) {
-#if defined(__AVX512DQ__)
-  return _pext_u32(steps[g / 2], 0x5555U << (g % 2));
-#else
-  return steps[g];
-#endif
+// All places of the groups of `rays`.
+FASTRT_INLINE std::uint32_t places_of(std::uint64_t rays) {
+  const __m128i none = _mm_cmpeq_epi16(_mm_cvtsi64_si128(static_cast<long long>(rays)), _mm_setzero_si128());
+  return ~static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packs_epi16(none, none)));
+}
+
+// The places of groups that touch the boxes.
+FASTRT_INLINE std::uint32_t touch_boxes(const Beam& beam, const Extents<LeafF>& e) {
+  const Grouped boxes = for_groups(e);
+  std::uint32_t touched = 0;
+  for (int step = 0; step < group_steps; ++step) {
+    const GroupRectangles r = rectangles_of(beam.groups, step, boxes.w.low, boxes.w.high);
+    touched |= places_of(to_bits(touch_boxes(beam, step, r, boxes)), step);
+  }
+  return touched;
 }
 
 // One box's extents, for looking at single rays.

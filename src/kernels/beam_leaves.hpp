@@ -65,31 +65,34 @@ FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<
   });
 }
 
-// What a group's rays have to be tested against.
-struct Candidates {
-  std::uint32_t rays; // of all triangles
-  int triangles;
-  alignas(32) std::uint32_t rays_of[leaf_lanes];
-
-  // The triangles that ray i of the group may hit.
-  [[gnu::always_inline]] inline std::uint32_t triangles_of(int i) const {
-    return set_bits(Ints<leaf_lanes>::load_aligned(reinterpret_cast<const std::int32_t*>(rays_of)), i);
-  }
+// A triangle of a run and the rays of a group that have to be tested against it.
+struct BeamPair {
+  std::uint32_t place; // 8 * group + lane
+  std::uint32_t rays;
 };
 
-FASTRT_INLINE Candidates find_candidates(const Beam& beam, const FrameTriangles& f, std::uint32_t lanes,
-                                         int g, std::uint32_t group) {
-  Candidates found;
+struct BeamPairs {
+  BeamPair pairs[beam_groups * pair_lanes];
+  int count;
+  std::uint64_t rays;      // of all of them
+  std::uint32_t triangles; // bits of places
+};
+
+// Of the pairs in `touched` (bits of places) those that the sieve leaves.
+FASTRT_INLINE void find_pairs(const Beam& beam, const FrameTriangles& f, std::uint32_t touched,
+                              std::uint64_t rays, BeamPairs& found) {
+  found.count = 0;
   found.rays = 0;
   found.triangles = 0;
-  for (int lane = 0; lane < leaf_lanes; ++lane) found.rays_of[lane] = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = __builtin_ctz(lanes);
-    found.rays_of[lane] = rays_inside(beam.rays, f, lane, g) & group;
-    found.rays |= found.rays_of[lane];
-    found.triangles += found.rays_of[lane] != 0;
+  for (; touched != 0; touched &= touched - 1) {
+    const auto place = static_cast<std::uint32_t>(__builtin_ctz(touched));
+    const int g = static_cast<int>(place / pair_lanes), lane = static_cast<int>(place % pair_lanes);
+    const std::uint32_t inside = rays_inside(beam.rays, f, lane, g) & rays_of_group(rays, g);
+    found.pairs[found.count] = {place, inside};
+    found.count += inside != 0;
+    found.rays |= static_cast<std::uint64_t>(inside) << (g * group_size);
+    found.triangles |= static_cast<std::uint32_t>(inside != 0) << place;
   }
-  return found;
 }
 
 // A test of all triangles of a run against one ray costs as much as one triangle against a register of rays,
@@ -98,28 +101,31 @@ inline constexpr int lone_test_share = 16;
 
 // Returns the rays that have a new hit.
 template <bool any>
-FASTRT_INLINE std::uint32_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int g,
-                                           const Candidates& found) {
-  t.tests += static_cast<std::uint32_t>(__builtin_popcount(found.rays) * run.lanes);
-  std::uint32_t changed = 0;
-  for (std::uint32_t rays = found.rays; rays != 0; rays &= rays - 1) {
-    const int lane = __builtin_ctz(rays), i = t.first + g * group_size + lane;
+FASTRT_INLINE std::uint64_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                           const BeamPairs& found) {
+  t.tests += static_cast<std::uint32_t>(__builtin_popcountll(found.rays) * run.lanes);
+  std::uint64_t changed = 0;
+  for (std::uint64_t rays = found.rays; rays != 0; rays &= rays - 1) {
+    const int at = __builtin_ctzll(rays), i = t.first + at;
     LoneRay ray = lone_ray(t.rays, t.hits, i);
-    meet_triangles(ray, run, found.triangles_of(lane));
+    meet_triangles(ray, run, found.triangles >> (at / group_size * pair_lanes) & ((1U << leaf_lanes) - 1U));
     if (ray.primitive == t.hits.primitive[i]) continue;
     t.hits.t[i] = ray.t;
     t.hits.primitive[i] = ray.primitive;
-    changed |= 1U << lane;
+    changed |= std::uint64_t{1} << at;
   }
   return changed;
 }
 
 template <bool any>
-FASTRT_INLINE std::uint32_t meet_run_together(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
-                                              int g, const Candidates& found) {
-  std::uint32_t changed = 0;
-  for (int lane = 0; lane < run.lanes; ++lane)
-    if (found.rays_of[lane] != 0) changed |= meet_triangle(t, run, lane, g, found.rays_of[lane]);
+FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                              const BeamPairs& found) {
+  std::uint64_t changed = 0;
+  for (int i = 0; i < found.count; ++i) {
+    const BeamPair& pair = found.pairs[i];
+    const int g = static_cast<int>(pair.place / pair_lanes), lane = static_cast<int>(pair.place % pair_lanes);
+    changed |= static_cast<std::uint64_t>(meet_triangle(t, run, lane, g, pair.rays)) << (g * group_size);
+  }
   return changed;
 }
 
@@ -133,19 +139,19 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>
       padded(place_corners(run, beam.y, zero, zero, f.v), padding),
       padded(place_corners(run, beam.z, LeafF(beam.backwards ? -0.0F : 0.0F), LeafF(beam.depth), f.w),
              padding)};
-  std::uint32_t touched[group_steps];
-  touch_boxes(beam, e, touched);
+  const std::uint32_t touched = touch_boxes(beam, e) & places_of(rays);
+  if (touched == 0) return;
   const LeafF side = max(e.u.high - e.u.low, max(e.v.high - e.v.low, e.w.high - e.w.low));
   (side * LeafF(4.0F * beam.padding)).store_aligned(f.margin);
-  for (int g = 0; g < beam_groups; ++g) {
-    const std::uint32_t group = rays_of_group(rays, g);
-    if (group == 0) continue;
-    const Candidates found = find_candidates(beam, f, boxes_of_group(touched, g), g, group);
-    if (found.rays == 0) continue;
-    const std::uint32_t changed = __builtin_popcount(found.rays) * widest <= found.triangles * lone_test_share
-                                      ? meet_run_alone(t, run, g, found)
-                                      : meet_run_together(t, run, g, found);
-    if (changed != 0) shorten_group(t, g, changed);
+  BeamPairs found;
+  find_pairs(beam, f, touched, rays, found);
+  if (found.count == 0) return;
+  const std::uint64_t changed = __builtin_popcountll(found.rays) * widest <= found.count * lone_test_share
+                                    ? meet_run_alone(t, run, found)
+                                    : meet_run_together(t, run, found);
+  for (std::uint32_t groups = groups_with(changed); groups != 0; groups &= groups - 1) {
+    const int g = __builtin_ctz(groups);
+    shorten_group(t, g, rays_of_group(changed, g));
   }
 }
 
@@ -209,15 +215,14 @@ template <bool any>
 [[gnu::noinline]] static void meet_shapes(BeamTraversal<any>& t, const BlockRun<ShapeBlock>& run,
                                           std::uint64_t rays) noexcept {
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
-  std::uint32_t touched[group_steps];
-  touch_boxes(t.beam, e, touched);
+  const std::uint32_t touched = touch_boxes(t.beam, e);
   std::uint64_t visitors[leaf_lanes] = {}; // of instances
   std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
     const std::uint32_t group = rays_of_group(rays, g);
     if (group == 0) continue;
     std::uint32_t changed = 0;
-    for (std::uint32_t lanes = boxes_of_group(touched, g); lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = touched >> (g * pair_lanes) & 0xFFU; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
       const std::int32_t id = run.primitive(lane);
       if (id < 0 || lane >= run.lanes) continue;
