@@ -108,7 +108,7 @@ FASTRT_INLINE std::uint64_t meet_run_alone(BeamTraversal<any>& t, const BlockRun
   for (std::uint64_t rays = found.rays; rays != 0; rays &= rays - 1) {
     const int at = __builtin_ctzll(rays), i = t.first + at;
     LoneRay ray = lone_ray(t.rays, t.hits, i);
-    meet_triangles(ray, run, found.triangles >> (at / group_size * pair_lanes) & ((1U << leaf_lanes) - 1U));
+    meet_triangles(ray, run, found.triangles >> (at / group_size * pair_lanes) & 0xFFU);
     if (ray.primitive == t.hits.primitive[i]) continue;
     t.hits.t[i] = ray.t;
     t.hits.primitive[i] = ray.primitive;
@@ -129,6 +129,11 @@ FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const Block
   return changed;
 }
 
+// The places that hold triangles of their own.
+FASTRT_INLINE std::uint32_t places_of(const BlockRun<TriangleBlock>& run) {
+  return ((1U << run.lanes) - 1U) * 0x01010101U;
+}
+
 template <bool any>
 FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) {
   const Beam& beam = t.beam;
@@ -139,7 +144,7 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>
       padded(place_corners(run, beam.y, zero, zero, f.v), padding),
       padded(place_corners(run, beam.z, LeafF(beam.backwards ? -0.0F : 0.0F), LeafF(beam.depth), f.w),
              padding)};
-  const std::uint32_t touched = touch_boxes(beam, e) & places_of(rays);
+  const std::uint32_t touched = touch_boxes(beam, e) & places_of(rays) & places_of(run);
   if (touched == 0) return;
   const LeafF side = max(e.u.high - e.u.low, max(e.v.high - e.v.low, e.w.high - e.w.low));
   (side * LeafF(4.0F * beam.padding)).store_aligned(f.margin);

@@ -153,6 +153,13 @@ FASTRT_INLINE void bound_group(Beam& beam, int g) {
   groups.slope_y1[g] = most_of_group(beam.rays.slope_y + i);
 }
 
+// A group that has no rays.
+FASTRT_INLINE void leave_out_group(Beam& beam, int g) {
+  BeamGroups& groups = beam.groups;
+  groups.x0[g] = groups.y0[g] = groups.slope_x0[g] = groups.slope_y0[g] = __builtin_inff();
+  groups.x1[g] = groups.y1[g] = groups.slope_x1[g] = groups.slope_y1[g] = beam.far[g] = -__builtin_inff();
+}
+
 // The whole column is written, as it is read.
 FASTRT_INLINE void set_far(Beam& beam, int g, float far) {
   const GroupF column = GroupF::load_aligned(beam.far);
@@ -202,6 +209,7 @@ FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, in
   beam.padding = 4.0F * box_padding * (size > scene.largest_coordinate ? size : scene.largest_coordinate);
   set_depth(beam, count, depth);
   for (int g = 0; g < count / group_size; ++g) bound_group(beam, g);
+  for (int g = count / group_size; g < beam_groups; ++g) leave_out_group(beam, g);
   beam.depth = depth;
   return true;
 }
