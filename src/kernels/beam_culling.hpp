@@ -31,38 +31,107 @@ FASTRT_INLINE Extent<LeafF> padded(const Extent<LeafF>& e, const LeafF& padding)
   return {e.low - padding, e.high + padding};
 }
 
-// Whether a group can touch the boxes, and whether the boxes are small beside it: bits, a lane each.
-struct TouchedLanes {
-  std::uint32_t touched, small;
+// Groups that are held against the boxes at a time, in turn in each box's lanes.
+inline constexpr int groups_at_once = widest / node_lanes;
+inline constexpr int group_steps = beam_groups / groups_at_once;
+using GroupedF = Floats<widest>;
+static_assert(leaf_lanes == node_lanes);
+
+// Each lane for all groups that are looked at together.
+FASTRT_INLINE GroupedF for_groups(const LeafF& lanes) {
+#if defined(__AVX512DQ__)
+  const __m512i twice = _mm512_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7);
+  return GroupedF(_mm512_permutexvar_ps(twice, _mm512_castps256_ps512(lanes.data)));
+#else
+  return lanes;
+#endif
+}
+
+// What a column of groups holds for those of one step.
+FASTRT_INLINE GroupedF of_groups(const float* column, int step) {
+#if defined(__AVX512DQ__)
+  std::int64_t two;
+  __builtin_memcpy(&two, column + 2 * step, sizeof(two));
+  return GroupedF(_mm512_castsi512_ps(_mm512_set1_epi64(two)));
+#else
+  return GroupedF(column[step]);
+#endif
+}
+
+// The rays of groups that still look as far as `near`.
+FASTRT_INLINE std::uint64_t rays_as_far_as(const Beam& beam, float near) {
+  return rays_of_groups(GroupF::load_aligned(beam.far) >= GroupF(near));
+}
+
+// Where the groups of a step lie between two depths.
+struct GroupRectangles {
+  GroupedF x0, x1, y0, y1;
 };
 
-template <class F>
-FASTRT_INLINE TouchedLanes touch_beam(const BeamGroup& g, const Extents<F>& e) {
-  const F zero(0.0F);
-  const F begin = max(e.w.low, zero), end = e.w.high;
-  const auto low = [&](float x, float slope) {
-    return cull_mul_add(F(slope), slope < 0.0F ? end : begin, F(x));
+FASTRT_INLINE GroupRectangles rectangles_of(const BeamGroups& groups, int step, const GroupedF& begin,
+                                            const GroupedF& end) {
+  const auto low = [&](const float* at, const float* slopes) {
+    const GroupedF slope = of_groups(slopes, step), from = of_groups(at, step);
+    return min(cull_mul_add(slope, begin, from), cull_mul_add(slope, end, from));
   };
-  const auto high = [&](float x, float slope) {
-    return cull_mul_add(F(slope), slope < 0.0F ? begin : end, F(x));
+  const auto high = [&](const float* at, const float* slopes) {
+    const GroupedF slope = of_groups(slopes, step), from = of_groups(at, step);
+    return max(cull_mul_add(slope, begin, from), cull_mul_add(slope, end, from));
   };
-  const F x0 = low(g.x0, g.slope_x0), x1 = high(g.x1, g.slope_x1), y0 = low(g.y0, g.slope_y0),
-          y1 = high(g.y1, g.slope_y1);
-  const MaskOf<F> met = (x0 <= e.u.high) & (x1 >= e.u.low) & (y0 <= e.v.high) & (y1 >= e.v.low) &
-                        (end >= zero) & (e.w.low <= F(g.far));
-  const MaskOf<F> small = ((x1 - x0) * (y1 - y0)) > F(2.0F) * ((e.u.high - e.u.low) * (e.v.high - e.v.low));
-  const std::uint32_t touched = to_bits(met);
-  return {touched, to_bits(small) & touched};
+  return {low(groups.x0, groups.slope_x0), high(groups.x1, groups.slope_x1), low(groups.y0, groups.slope_y0),
+          high(groups.y1, groups.slope_y1)};
+}
+
+using Grouped = Extents<GroupedF>;
+FASTRT_INLINE Grouped for_groups(const Extents<LeafF>& e) {
+  return {{for_groups(e.u.low), for_groups(e.u.high)},
+          {for_groups(e.v.low), for_groups(e.v.high)},
+          {for_groups(max(e.w.low, LeafF(0.0F))), for_groups(e.w.high)}};
+}
+
+// The groups of a step that touch the boxes; the boxes' depths begin at 0 or later.
+FASTRT_INLINE PacketM touch_boxes(const Beam& beam, int step, const GroupRectangles& r, const Grouped& e) {
+  return (r.x0 <= e.u.high) & (r.x1 >= e.u.low) & (r.y0 <= e.v.high) & (r.y1 >= e.v.low) &
+         (e.w.high >= GroupedF(0.0F)) & (e.w.low <= of_groups(beam.far, step));
+}
+
+// Places of pairs of a group and a lane among bits: pair_lanes * group + lane.
+inline constexpr int pair_lanes = 8;
+
+// Bits of lanes (in turn for the groups of a step) to bits of places.
+FASTRT_INLINE std::uint32_t places_of(std::uint32_t lanes, int step) {
+#if defined(__AVX512DQ__)
+  return (_pext_u32(lanes, 0x5555U) | _pext_u32(lanes, 0xAAAAU) << pair_lanes) << (2 * step * pair_lanes);
+#else
+  return lanes << (step * pair_lanes);
+#endif
+}
+
+// All places of the groups of `rays`.
+FASTRT_INLINE std::uint32_t places_of(std::uint64_t rays) {
+  const __m128i none = _mm_cmpeq_epi16(_mm_cvtsi64_si128(static_cast<long long>(rays)), _mm_setzero_si128());
+  return ~static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packs_epi16(none, none)));
+}
+
+// The places of groups that touch the boxes.
+FASTRT_INLINE std::uint32_t touch_boxes(const Beam& beam, const Extents<LeafF>& e) {
+  const Grouped boxes = for_groups(e);
+  std::uint32_t touched = 0;
+  for (int step = 0; step < group_steps; ++step) {
+    const GroupRectangles r = rectangles_of(beam.groups, step, boxes.w.low, boxes.w.high);
+    touched |= places_of(to_bits(touch_boxes(beam, step, r, boxes)), step);
+  }
+  return touched;
 }
 
 // One box's extents, for looking at single rays.
 struct LoneExtents {
-  float u0, u1, v0, v1, w0, w1;
+  float u0, u1, v0, v1, begin, end; // depths: 0 or more
 };
 
 // The rays of group g that can touch a box.
 FASTRT_INLINE std::uint32_t touch_rays(const BeamRays& rays, const LoneExtents& e, int g) {
-  const PacketF begin(e.w0 > 0.0F ? e.w0 : 0.0F), end(e.w1);
+  const PacketF begin(e.begin), end(e.end);
   std::uint32_t bits = 0;
   for (int k = 0; k < group_size; k += widest) {
     const int i = g * group_size + k;
@@ -75,61 +144,6 @@ FASTRT_INLINE std::uint32_t touch_rays(const BeamRays& rays, const LoneExtents& 
     bits |= to_bits(met) << k;
   }
   return bits;
-}
-
-// Children of a node that some ray may reach, and which rays.
-struct BeamChildren {
-  alignas(32) float extent[6][wide_children]; // u low, u high, v low ..
-  std::uint64_t rays[wide_children];
-  std::uint32_t bits;
-};
-
-FASTRT_INLINE LoneExtents extents_of(const float (&e)[6][wide_children], int i) {
-  return {e[0][i], e[1][i], e[2][i], e[3][i], e[4][i], e[5][i]};
-}
-
-template <class F>
-FASTRT_INLINE void store_extents(const Extents<F>& e, float (&out)[6][wide_children], int at) {
-  e.u.low.store_aligned(out[0] + at);
-  e.u.high.store_aligned(out[1] + at);
-  e.v.low.store_aligned(out[2] + at);
-  e.v.high.store_aligned(out[3] + at);
-  e.w.low.store_aligned(out[4] + at);
-  e.w.high.store_aligned(out[5] + at);
-}
-
-FASTRT_INLINE void touch_children(const Beam& beam, const WideNode& node, std::uint64_t rays,
-                                  BeamChildren& out) {
-  using N = Floats<node_lanes>;
-  const N padding(beam.padding);
-  std::uint32_t touched[beam_groups] = {}, small[beam_groups] = {};
-  out.bits = 0;
-  for (int half = 0; half < wide_children; half += node_lanes) {
-    const float* const columns = node.lower_x + half;
-    const Extents<N> e{axis_extent(columns, beam.x, padding), axis_extent(columns, beam.y, padding),
-                       in_depth(beam, axis_extent(columns, beam.z, padding))};
-    store_extents(e, out.extent, half);
-    for (int g = 0; g < beam_groups; ++g) {
-      if (rays_of_group(rays, g) == 0) continue;
-      const TouchedLanes lanes = touch_beam(beam.groups[g], e);
-      touched[g] |= lanes.touched << half;
-      small[g] |= lanes.small << half;
-      out.bits |= lanes.touched << half;
-    }
-  }
-  for (std::uint32_t bits = out.bits; bits != 0; bits &= bits - 1) {
-    const int i = __builtin_ctz(bits);
-    std::uint64_t reached = 0;
-    for (int g = 0; g < beam_groups; ++g) {
-      if ((touched[g] >> i & 1U) == 0) continue;
-      const std::uint32_t candidates = ((small[g] >> i & 1U) != 0 || is_leaf(node.child[i]))
-                                           ? touch_rays(beam.rays, extents_of(out.extent, i), g)
-                                           : 0xFFFFU;
-      reached |= static_cast<std::uint64_t>(candidates) << (g * group_size);
-    }
-    out.rays[i] = reached & rays;
-    if (out.rays[i] == 0) out.bits &= ~(1U << i);
-  }
 }
 
 // Triangles of a run in the frame, as columns.

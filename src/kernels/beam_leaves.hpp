@@ -3,7 +3,7 @@
 // takes fewer tests; spheres and shapes are tested with a register of rays.
 #pragma once
 
-#include "src/kernels/beam_culling.hpp"
+#include "src/kernels/beam_children.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -24,7 +24,7 @@ template <bool any>
 FASTRT_INLINE void shorten_group(BeamTraversal<any>& t, int g, std::uint32_t bits) {
   if constexpr (any) t.open &= ~(static_cast<std::uint64_t>(bits) << (g * group_size));
   const std::uint32_t open = rays_of_group(t.open, g);
-  t.beam.groups[g].far = beam_far(t.beam, t.hits, t.first, g, open);
+  set_far(t.beam, g, beam_far(t.beam, t.hits, t.first, g, open));
 }
 
 // One primitive against the rays of group g in `bits`.
@@ -65,31 +65,34 @@ FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<
   });
 }
 
-// What a group's rays have to be tested against.
-struct Candidates {
-  std::uint32_t rays; // of all triangles
-  int triangles;
-  alignas(32) std::uint32_t rays_of[leaf_lanes];
-
-  // The triangles that ray i of the group may hit.
-  [[gnu::always_inline]] inline std::uint32_t triangles_of(int i) const {
-    return set_bits(Ints<leaf_lanes>::load_aligned(reinterpret_cast<const std::int32_t*>(rays_of)), i);
-  }
+// A triangle of a run and the rays of a group that have to be tested against it.
+struct BeamPair {
+  std::uint32_t place; // 8 * group + lane
+  std::uint32_t rays;
 };
 
-FASTRT_INLINE Candidates find_candidates(const Beam& beam, const FrameTriangles& f, std::uint32_t lanes,
-                                         int g, std::uint32_t group) {
-  Candidates found;
+struct BeamPairs {
+  BeamPair pairs[beam_groups * pair_lanes];
+  int count;
+  std::uint64_t rays;      // of all of them
+  std::uint32_t triangles; // bits of places
+};
+
+// Of the pairs in `touched` (bits of places) those that the sieve leaves.
+FASTRT_INLINE void find_pairs(const Beam& beam, const FrameTriangles& f, std::uint32_t touched,
+                              std::uint64_t rays, BeamPairs& found) {
+  found.count = 0;
   found.rays = 0;
   found.triangles = 0;
-  for (int lane = 0; lane < leaf_lanes; ++lane) found.rays_of[lane] = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = __builtin_ctz(lanes);
-    found.rays_of[lane] = rays_inside(beam.rays, f, lane, g) & group;
-    found.rays |= found.rays_of[lane];
-    found.triangles += found.rays_of[lane] != 0;
+  for (; touched != 0; touched &= touched - 1) {
+    const auto place = static_cast<std::uint32_t>(__builtin_ctz(touched));
+    const int g = static_cast<int>(place / pair_lanes), lane = static_cast<int>(place % pair_lanes);
+    const std::uint32_t inside = rays_inside(beam.rays, f, lane, g) & rays_of_group(rays, g);
+    found.pairs[found.count] = {place, inside};
+    found.count += inside != 0;
+    found.rays |= static_cast<std::uint64_t>(inside) << (g * group_size);
+    found.triangles |= static_cast<std::uint32_t>(inside != 0) << place;
   }
-  return found;
 }
 
 // A test of all triangles of a run against one ray costs as much as one triangle against a register of rays,
@@ -98,29 +101,37 @@ inline constexpr int lone_test_share = 16;
 
 // Returns the rays that have a new hit.
 template <bool any>
-FASTRT_INLINE std::uint32_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int g,
-                                           const Candidates& found) {
-  t.tests += static_cast<std::uint32_t>(__builtin_popcount(found.rays) * run.lanes);
-  std::uint32_t changed = 0;
-  for (std::uint32_t rays = found.rays; rays != 0; rays &= rays - 1) {
-    const int lane = __builtin_ctz(rays), i = t.first + g * group_size + lane;
+FASTRT_INLINE std::uint64_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                           const BeamPairs& found) {
+  t.tests += static_cast<std::uint32_t>(__builtin_popcountll(found.rays) * run.lanes);
+  std::uint64_t changed = 0;
+  for (std::uint64_t rays = found.rays; rays != 0; rays &= rays - 1) {
+    const int at = __builtin_ctzll(rays), i = t.first + at;
     LoneRay ray = lone_ray(t.rays, t.hits, i);
-    meet_triangles(ray, run, found.triangles_of(lane));
+    meet_triangles(ray, run, found.triangles >> (at / group_size * pair_lanes) & 0xFFU);
     if (ray.primitive == t.hits.primitive[i]) continue;
     t.hits.t[i] = ray.t;
     t.hits.primitive[i] = ray.primitive;
-    changed |= 1U << lane;
+    changed |= std::uint64_t{1} << at;
   }
   return changed;
 }
 
 template <bool any>
-FASTRT_INLINE std::uint32_t meet_run_together(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
-                                              int g, const Candidates& found) {
-  std::uint32_t changed = 0;
-  for (int lane = 0; lane < run.lanes; ++lane)
-    if (found.rays_of[lane] != 0) changed |= meet_triangle(t, run, lane, g, found.rays_of[lane]);
+FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                              const BeamPairs& found) {
+  std::uint64_t changed = 0;
+  for (int i = 0; i < found.count; ++i) {
+    const BeamPair& pair = found.pairs[i];
+    const int g = static_cast<int>(pair.place / pair_lanes), lane = static_cast<int>(pair.place % pair_lanes);
+    changed |= static_cast<std::uint64_t>(meet_triangle(t, run, lane, g, pair.rays)) << (g * group_size);
+  }
   return changed;
+}
+
+// The places that hold triangles of their own.
+FASTRT_INLINE std::uint32_t places_of(const BlockRun<TriangleBlock>& run) {
+  return ((1U << run.lanes) - 1U) * 0x01010101U;
 }
 
 template <bool any>
@@ -133,17 +144,19 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>
       padded(place_corners(run, beam.y, zero, zero, f.v), padding),
       padded(place_corners(run, beam.z, LeafF(beam.backwards ? -0.0F : 0.0F), LeafF(beam.depth), f.w),
              padding)};
+  const std::uint32_t touched = touch_boxes(beam, e) & places_of(rays) & places_of(run);
+  if (touched == 0) return;
   const LeafF side = max(e.u.high - e.u.low, max(e.v.high - e.v.low, e.w.high - e.w.low));
   (side * LeafF(4.0F * beam.padding)).store_aligned(f.margin);
-  for (int g = 0; g < beam_groups; ++g) {
-    const std::uint32_t group = rays_of_group(rays, g);
-    if (group == 0) continue;
-    const Candidates found = find_candidates(beam, f, touch_beam(beam.groups[g], e).touched, g, group);
-    if (found.rays == 0) continue;
-    const std::uint32_t changed = __builtin_popcount(found.rays) * widest <= found.triangles * lone_test_share
-                                      ? meet_run_alone(t, run, g, found)
-                                      : meet_run_together(t, run, g, found);
-    if (changed != 0) shorten_group(t, g, changed);
+  BeamPairs found;
+  find_pairs(beam, f, touched, rays, found);
+  if (found.count == 0) return;
+  const std::uint64_t changed = __builtin_popcountll(found.rays) * widest <= found.count * lone_test_share
+                                    ? meet_run_alone(t, run, found)
+                                    : meet_run_together(t, run, found);
+  for (std::uint32_t groups = groups_with(changed); groups != 0; groups &= groups - 1) {
+    const int g = __builtin_ctz(groups);
+    shorten_group(t, g, rays_of_group(changed, g));
   }
 }
 
@@ -198,9 +211,7 @@ template <bool any>
 FASTRT_INLINE void meet_waiting(BeamTraversal<any>& t, WaitingInstances& waiting) {
   while (waiting.count != 0) {
     const int i = waiting.take();
-    std::uint64_t rays = waiting.rays[i];
-    for (int g = 0; g < beam_groups; ++g)
-      if (!(t.beam.groups[g].far >= waiting.near[i])) rays &= ~(0xFFFFULL << (g * group_size));
+    const std::uint64_t rays = waiting.rays[i] & rays_as_far_as(t.beam, waiting.near[i]);
     if (rays != 0) meet_instance(t, waiting.id[i], rays);
   }
 }
@@ -209,13 +220,14 @@ template <bool any>
 [[gnu::noinline]] static void meet_shapes(BeamTraversal<any>& t, const BlockRun<ShapeBlock>& run,
                                           std::uint64_t rays) noexcept {
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
+  const std::uint32_t touched = touch_boxes(t.beam, e);
   std::uint64_t visitors[leaf_lanes] = {}; // of instances
   std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
     const std::uint32_t group = rays_of_group(rays, g);
     if (group == 0) continue;
     std::uint32_t changed = 0;
-    for (std::uint32_t lanes = touch_beam(t.beam.groups[g], e).touched; lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = touched >> (g * pair_lanes) & 0xFFU; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
       const std::int32_t id = run.primitive(lane);
       if (id < 0 || lane >= run.lanes) continue;

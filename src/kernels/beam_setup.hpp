@@ -26,12 +26,12 @@ struct alignas(64) BeamRays {
   float begin[beam_size], scale[beam_size]; // depth of the origin; depth per t
 };
 
-// The lines between which a group's rays lie, and the depth beyond which nothing matters to them.
-struct BeamGroup {
-  float x0, x1, y0, y1;
-  float slope_x0, slope_x1, slope_y0, slope_y1;
-  float far;
+// The lines between which each group's rays lie.
+struct alignas(16) BeamGroups {
+  float x0[beam_groups], x1[beam_groups], y0[beam_groups], y1[beam_groups];
+  float slope_x0[beam_groups], slope_x1[beam_groups], slope_y0[beam_groups], slope_y1[beam_groups];
 };
+using GroupF = Floats<beam_groups>;
 
 struct Beam {
   int x, y, z;        // axes of space: across, across, along
@@ -40,11 +40,22 @@ struct Beam {
   float padding;      // boxes are met as if larger by this
   std::uint64_t live; // bit i: ray i of the beam
   BeamRays rays;
-  BeamGroup groups[beam_groups];
+  BeamGroups groups;
+  alignas(16) float far[beam_groups]; // the depth beyond which nothing matters to a group
 };
 
 FASTRT_INLINE std::uint32_t rays_of_group(std::uint64_t rays, int g) {
   return static_cast<std::uint32_t>(rays >> (g * group_size)) & 0xFFFFU;
+}
+
+// All rays of the groups in `lanes`, and the groups that have any of `rays` (bits).
+FASTRT_INLINE std::uint64_t rays_of_groups(const Mask<beam_groups>& lanes) {
+  const __m128i words = select_ints<GroupF>(lanes, Ints<beam_groups>(-1), Ints<beam_groups>(0)).data;
+  return static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_packs_epi32(words, words)));
+}
+FASTRT_INLINE std::uint32_t groups_with(std::uint64_t rays) {
+  const __m128i none = _mm_cmpeq_epi16(_mm_cvtsi64_si128(static_cast<long long>(rays)), _mm_setzero_si128());
+  return ~static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(none, none))) & 15U;
 }
 
 // The sum of the directions of rays first .., each by its size, and which rays take part. Nothing if some ray
@@ -131,15 +142,28 @@ FASTRT_INLINE float beam_far(const Beam& beam, const HitBatch& hits, int first, 
 
 FASTRT_INLINE void bound_group(Beam& beam, int g) {
   const int i = g * group_size;
-  BeamGroup& group = beam.groups[g];
-  group.x0 = least_of_group(beam.rays.x + i) - beam.padding;
-  group.x1 = most_of_group(beam.rays.x + i) + beam.padding;
-  group.y0 = least_of_group(beam.rays.y + i) - beam.padding;
-  group.y1 = most_of_group(beam.rays.y + i) + beam.padding;
-  group.slope_x0 = least_of_group(beam.rays.slope_x + i);
-  group.slope_x1 = most_of_group(beam.rays.slope_x + i);
-  group.slope_y0 = least_of_group(beam.rays.slope_y + i);
-  group.slope_y1 = most_of_group(beam.rays.slope_y + i);
+  BeamGroups& groups = beam.groups;
+  groups.x0[g] = least_of_group(beam.rays.x + i) - beam.padding;
+  groups.x1[g] = most_of_group(beam.rays.x + i) + beam.padding;
+  groups.y0[g] = least_of_group(beam.rays.y + i) - beam.padding;
+  groups.y1[g] = most_of_group(beam.rays.y + i) + beam.padding;
+  groups.slope_x0[g] = least_of_group(beam.rays.slope_x + i);
+  groups.slope_x1[g] = most_of_group(beam.rays.slope_x + i);
+  groups.slope_y0[g] = least_of_group(beam.rays.slope_y + i);
+  groups.slope_y1[g] = most_of_group(beam.rays.slope_y + i);
+}
+
+// A group that has no rays.
+FASTRT_INLINE void leave_out_group(Beam& beam, int g) {
+  BeamGroups& groups = beam.groups;
+  groups.x0[g] = groups.y0[g] = groups.slope_x0[g] = groups.slope_y0[g] = __builtin_inff();
+  groups.x1[g] = groups.y1[g] = groups.slope_x1[g] = groups.slope_y1[g] = beam.far[g] = -__builtin_inff();
+}
+
+// The whole column is written, as it is read.
+FASTRT_INLINE void set_far(Beam& beam, int g, float far) {
+  const GroupF column = GroupF::load_aligned(beam.far);
+  select(from_bits<beam_groups>(1U << g), GroupF(far), column).store_aligned(beam.far);
 }
 
 // Moves depth 0 to where the first ray begins, and the lines with it.
@@ -185,6 +209,7 @@ FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, in
   beam.padding = 4.0F * box_padding * (size > scene.largest_coordinate ? size : scene.largest_coordinate);
   set_depth(beam, count, depth);
   for (int g = 0; g < count / group_size; ++g) bound_group(beam, g);
+  for (int g = count / group_size; g < beam_groups; ++g) leave_out_group(beam, g);
   beam.depth = depth;
   return true;
 }

@@ -11,26 +11,6 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 // With this many rays left in a subtree or fewer, each follows it alone.
 inline constexpr int lone_beam_rays = 6;
 
-struct BeamEntry {
-  std::uint32_t child;
-  float near;
-  std::uint64_t rays; // that may reach it
-};
-
-FASTRT_INLINE BeamEntry* push_children(const GeometryView& scene, const WideNode& node, const BeamChildren& c,
-                                       BeamEntry* top) {
-  BeamEntry* const bottom = top;
-  for (std::uint32_t bits = c.bits; bits != 0; bits &= bits - 1) {
-    const int i = __builtin_ctz(bits);
-    prefetch_child(scene, node.child[i]);
-    const BeamEntry entry{node.child[i], c.extent[4][i], c.rays[i]};
-    BeamEntry* place = top++;
-    for (; place != bottom && place[-1].near < entry.near; --place) *place = place[-1];
-    *place = entry;
-  }
-  return top;
-}
-
 template <bool any>
 FASTRT_INLINE void go_on_alone(BeamTraversal<any>& t, std::uint32_t child, std::uint64_t rays) {
   std::uint8_t which[beam_size];
@@ -48,37 +28,29 @@ FASTRT_INLINE void go_on_alone(BeamTraversal<any>& t, std::uint32_t child, std::
   }
 }
 
-// The rays of an entry to which it still matters.
-template <bool any>
-FASTRT_INLINE std::uint64_t still_looking(const BeamTraversal<any>& t, const BeamEntry& entry) {
-  std::uint64_t rays = entry.rays & t.open;
-  for (int g = 0; g < beam_groups; ++g)
-    if (!(t.beam.groups[g].far >= entry.near)) rays &= ~(0xFFFFULL << (g * group_size));
-  return rays;
-}
-
 template <bool any>
 static void traverse_beam(BeamTraversal<any>& t) noexcept {
-  BeamEntry stack[max_tree_stack];
-  stack[0] = {t.scene.root, -__builtin_inff(), t.open};
-  BeamEntry* top = stack + 1;
-  BeamChildren children;
-  while (top != stack) {
-    const BeamEntry entry = *--top;
-    const std::uint64_t rays = still_looking(t, entry);
+  BeamStack stack;
+  // What lies under the top is on its way to the cache while the top is looked at; under the root that is the
+  // root again.
+  stack.entries[0] = stack.entries[1] = make_waiting(t.scene.root, 0.0F, 0);
+  stack.rays[1] = t.open;
+  for (int top = 2; top != 1;) {
+    const Waiting entry = stack.entries[--top];
+    prefetch_child(t.scene, child_of(stack.entries[top - 1]));
+    const std::uint64_t rays = stack.rays[top] & t.open & rays_as_far_as(t.beam, near_of(entry));
     if (rays == 0) continue;
+    const std::uint32_t child = child_of(entry);
+    if (is_leaf(child)) {
+      meet_leaf(t, child, rays);
+      continue;
+    }
     if (__builtin_popcountll(rays) <= lone_beam_rays) {
-      go_on_alone(t, entry.child, rays);
+      go_on_alone(t, child, rays);
       continue;
     }
-    if (is_leaf(entry.child)) {
-      meet_leaf(t, entry.child, rays);
-      continue;
-    }
-    const WideNode& node = t.scene.nodes[entry.child];
     ++t.nodes;
-    touch_children(t.beam, node, rays, children);
-    top = push_children(t.scene, node, children, top);
+    top = push_children(t.beam, t.scene.nodes[child], rays, stack, top);
   }
 }
 
@@ -91,7 +63,7 @@ static bool trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch
   if (!make_beam(scene, rays, first, count, beam)) return false;
   BeamTraversal<any> t{scene, rays, hits, columns, first, beam, beam.live};
   for (int g = 0; g < count / group_size; ++g)
-    beam.groups[g].far = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
+    beam.far[g] = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
   traverse_beam(t);
   count_tests(hits, t.nodes, t.tests);
   return true;
