@@ -79,15 +79,18 @@ struct BeamPairs {
 };
 
 // Of the pairs in `touched` (bits of places) those that the sieve leaves.
-FASTRT_INLINE void find_pairs(const Beam& beam, const FrameTriangles& f, std::uint32_t touched,
-                              std::uint64_t rays, BeamPairs& found) {
+template <bool any>
+FASTRT_INLINE void find_pairs(const BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                              const FrameTriangles& f, std::uint32_t touched, std::uint64_t rays,
+                              BeamPairs& found) {
   found.count = 0;
   found.rays = 0;
   found.triangles = 0;
   for (; touched != 0; touched &= touched - 1) {
     const auto place = static_cast<std::uint32_t>(__builtin_ctz(touched));
     const int g = static_cast<int>(place / pair_lanes), lane = static_cast<int>(place % pair_lanes);
-    const std::uint32_t inside = rays_inside(beam.rays, f, lane, g) & rays_of_group(rays, g);
+    const std::uint32_t inside = rays_inside(t.beam.rays, f, lane, g) & rays_of_group(rays, g) &
+                                 ~rays_that_exclude(t.rays, t.first + g * group_size, run.primitive(lane));
     found.pairs[found.count] = {place, inside};
     found.count += inside != 0;
     found.rays |= static_cast<std::uint64_t>(inside) << (g * group_size);
@@ -149,7 +152,7 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>
   const LeafF side = max(e.u.high - e.u.low, max(e.v.high - e.v.low, e.w.high - e.w.low));
   (side * LeafF(4.0F * beam.padding)).store_aligned(f.margin);
   BeamPairs found;
-  find_pairs(beam, f, touched, rays, found);
+  find_pairs(t, run, f, touched, rays, found);
   if (found.count == 0) return;
   const std::uint64_t changed = __builtin_popcountll(found.rays) * widest <= found.count * lone_test_share
                                     ? meet_run_alone(t, run, found)

@@ -106,13 +106,13 @@ struct MetPair {
   std::uint32_t rays;
 };
 
-// The rays of group g that a primitive is excluded for: often those of the surface that they leave or go to,
-// which all of them would be tested against.
-FASTRT_INLINE std::uint32_t rays_that_exclude(const RayBatch& rays, int g, std::int32_t primitive) {
+// Of the 16 rays from row `first` on those that a primitive is excluded for: often it is the surface that
+// they leave or go to, which all of them would be tested against.
+FASTRT_INLINE std::uint32_t rays_that_exclude(const RayBatch& rays, int first, std::int32_t primitive) {
   const PacketI id(primitive);
   std::uint32_t bits = 0;
   for (int k = 0; k < group_size; k += widest)
-    bits |= to_bits(simd::bool_cast(PacketI::load_aligned(rays.exclude + g * group_size + k) == id)) << k;
+    bits |= to_bits(simd::bool_cast(PacketI::load_aligned(rays.exclude + first + k) == id)) << k;
   return bits;
 }
 
@@ -138,7 +138,7 @@ FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const Blo
     for (std::uint64_t left = pairs[first / at_once]; left != 0; left &= left - 1) {
       const int bit = __builtin_ctzll(left), i = first + bit / batch_groups, g = bit % batch_groups;
       const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
-                                 ~rays_that_exclude(tile.rays, g, run.primitive(i));
+                                 ~rays_that_exclude(tile.rays, g * group_size, run.primitive(i));
       met[count] = {i, g, rays};
       count += rays != 0 ? 1 : 0;
     }
