@@ -94,7 +94,7 @@ FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<LeafF>& a, c
   const MaskOf<LeafF> sure = abs(turn) > turns_by;
   out.unsure = ~to_bits(sure);
   const LeafF zero(0.0F), sign = select(sure, sign_bit(turn), zero), square = side * side;
-  const LeafF margin = cull_mul_add(LeafF(2.0F), turns_off, cull_mul_add(slope * square, LeafF(0.5F), lets));
+  const LeafF margin = cull_mul_add(LeafF(2.0F), turns_off, cull_mul_add(slope, square, lets));
   LeafF most = zero;
   for (int e = 0; e < 3; ++e) {
     const PencilEdge& line = edges[e];
