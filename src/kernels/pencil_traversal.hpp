@@ -29,7 +29,8 @@ FASTRT_INLINE void meet_run(PencilTraversal& tile, const BlockRun<TriangleBlock>
       touch_groups(tile.view.groups, project_box(f, low, high), lanes_of(run), groups, touched);
   if (some == 0) return;
   PencilEdges edges;
-  lines_in_pencil(tile.view, a, b, c, largest(high - low), edges);
+  // (With rounding: corners of tiny triangles may be as far apart as they are wrong.)
+  lines_in_pencil(tile.view, a, b, c, largest(high - low) + LeafF(f.padding), edges);
   for_each_pair(tile, run, edges, some, touched,
                 [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
 }

@@ -32,6 +32,7 @@ RayRun pencil(const Scene& scene, float astray, Random& random) {
   const float spread_x = any_spread(radius, random),
               spread_y = one_eye ? spread_x : any_spread(radius, random);
   const Vec2 tilt(random.uniform(-2, 2), random.uniform(-2, 2));
+  const bool from_surfaces = random.below(4) == 0; // of anything, in no order
   const float error = astray * size * (std::fabs(spread_x) + std::fabs(spread_y));
   RayRun run(batch_size);
   for (int i = 0; i < batch_size; ++i) {
@@ -42,6 +43,15 @@ RayRun pencil(const Scene& scene, float astray, Random& random) {
     Ray& ray = run[static_cast<std::size_t>(i)];
     ray.direction = (axes.forward + slope.x * axes.right) + slope.y * axes.up;
     ray.origin = ((middle + at.x * axes.right) + at.y * axes.up) + depth * ray.direction;
+    if (from_surfaces && spread_x == spread_y) {
+      const Vec3 target = target_on(scene, random), from = target - middle;
+      if (spread_x == 0.0F) ray.origin = target;
+      const float along = glm::dot(from, axes.forward);
+      if (spread_x != 0.0F && 1.0F + spread_x * along > 0.05F) {
+        ray.origin = target;
+        ray.direction = axes.forward + spread_x / (1.0F + spread_x * along) * (from - along * axes.forward);
+      }
+    }
   }
   return run;
 }
