@@ -47,9 +47,10 @@ struct PencilEdge {
 // From corner p to corner q: which way the pencil's ray at (x, y) turns around the edge. The ray passes
 // through (x, y, 0) along (spread_u * x, spread_v * y, 1).
 FASTRT_INLINE PencilEdge edge_between(const PencilFrame& f, const V3<LeafF>& p, const V3<LeafF>& q) {
+  // Not p x q: its rounding would follow the square of the distance instead of the edge's length.
   const V3<LeafF> e = q - p;
-  const LeafF nx = cull_mul_sub(p.y, q.z, p.z * q.y), ny = cull_mul_sub(p.z, q.x, p.x * q.z),
-              nz = cull_mul_sub(p.x, q.y, p.y * q.x);
+  const LeafF nx = cull_mul_sub(p.y, e.z, p.z * e.y), ny = cull_mul_sub(p.z, e.x, p.x * e.z),
+              nz = cull_mul_sub(p.x, e.y, p.y * e.x);
   return {cull_mul_sub(LeafF(f.spread_u), nx, e.y),
           cull_mul_add(LeafF(f.spread_v), ny, e.x),
           nz,
