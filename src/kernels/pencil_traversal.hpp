@@ -11,7 +11,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // Fewer rays than this are no pencil; they go as beams.
 inline constexpr int least_pencil = 32;
-// Pencils of a batch at most, and groups that are tried in vain.
+// Pencils of a batch at most, and groups that are tried in vain for each of them and before the first.
 inline constexpr int max_pencils = 8, max_pencil_failures = 2;
 
 using PencilTraversal = TileTraversal<false, PencilView>;
@@ -81,6 +81,13 @@ static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBat
   return true;
 }
 
+// Whether most of a group's rays leave one primitive: then they are likely to be a pencil.
+FASTRT_INLINE bool leave_together(const RayBatch& rays, int g, std::uint32_t live) {
+  const int first = g * group_size;
+  const std::uint32_t same = rays_that_exclude(rays, first, rays.exclude[first + __builtin_ctz(live)]) & live;
+  return __builtin_popcount(same) * 2 > __builtin_popcount(live);
+}
+
 // Traces what of the batch lies in pencils and takes it out of `looking`; false if there is none. hits:
 // cleared by the caller.
 static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBits& looking,
@@ -94,6 +101,7 @@ static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBi
   for (int g = 0; g < batch_groups && pencils < max_pencils && failures < max_pencil_failures * (1 + pencils);
        ++g) {
     if (__builtin_popcount(live.bits[g]) < group_size / 2) continue;
+    if (failures != 0 && !leave_together(rays, g, live.bits[g])) continue;
     if (trace_pencil(scene, rays, hits, size, g, live))
       ++pencils;
     else
