@@ -2,6 +2,7 @@
 // Rays through the wide tree one by one, for rays that share nothing with their neighbours. A few are under
 // way at a time, so that one waits for its node while others go on. All of them meet their nodes before the
 // first goes on from there: its branches can hardly be foreseen, and cost least when what they ask is known.
+// Only those that come to a leaf or to their end take them.
 #pragma once
 
 #include "src/kernels/lone_ray.hpp"
