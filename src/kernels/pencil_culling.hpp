@@ -18,6 +18,16 @@ FASTRT_INLINE Rectangles<F> project_extent(const PencilFrame& f, const F& u0, co
           max(v1 * high0, v1 * high1), w0};
 }
 
+FASTRT_INLINE Rectangles<LeafF> project_spheres(const PencilFrame& f, const BlockRun<SphereBlock>& run) {
+  const V3<LeafF> center = load_centers(run) - broadcast3<LeafF>(f.origin);
+  const LeafF radius = load_two<LeafF>(run.low->radius, run.high->radius), padding(f.padding);
+  const LeafF u = cull_dot(center, broadcast3<LeafF>(f.u)), v = cull_dot(center, broadcast3<LeafF>(f.v)),
+              w = cull_dot(center, broadcast3<LeafF>(f.w));
+  const LeafF ru = cull_mul_add(radius, LeafF(f.length_u), padding),
+              rv = cull_mul_add(radius, LeafF(f.length_v), padding), rw = radius + padding;
+  return project_extent(f, u - ru, u + ru, v - rv, v + rv, w - rw, w + rw);
+}
+
 FASTRT_INLINE void touch_children(const PencilView& view, const WideNode& node, std::uint32_t groups,
                                   TouchedChildren& out) {
   using N = Floats<node_lanes>;

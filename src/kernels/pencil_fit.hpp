@@ -21,6 +21,7 @@ inline constexpr float least_width = 0.125F;
 
 struct PencilFrame {
   V3<float> u, v, w;        // of a point from the origin: across, across and depth. u and v may lean along w
+  float length_u, length_v; // of u and v; 1 or a little more
   V3<float> origin;         // depth 0: in the midst of the rays' origins
   float spread_u, spread_v; // by how much wider per depth, as a share of the width at depth 0
   float stray_x, stray_y;   // how far a ray may be from its place in the plane; of all rays, the most
@@ -145,8 +146,12 @@ FASTRT_INLINE bool fit_frame(const PencilMoments& m, int rays, PencilFrame& f) {
   const V3<float> u = combined(x, f.u, y, f.v), v = combined(x, f.v, -y, f.u);
   f.spread_u = middle + radius;
   f.spread_v = middle - radius;
-  f.u = combined(1.0F, u, f.spread_u * (x * m.x + y * m.y) - (x * m.s + y * m.t), f.w);
-  f.v = combined(1.0F, v, f.spread_v * (x * m.y - y * m.x) - (x * m.t - y * m.s), f.w);
+  const float lean_u = f.spread_u * (x * m.x + y * m.y) - (x * m.s + y * m.t),
+              lean_v = f.spread_v * (x * m.y - y * m.x) - (x * m.t - y * m.s);
+  f.u = combined(1.0F, u, lean_u, f.w);
+  f.v = combined(1.0F, v, lean_v, f.w);
+  f.length_u = __builtin_sqrtf(1.0F + lean_u * lean_u);
+  f.length_v = __builtin_sqrtf(1.0F + lean_v * lean_v);
   const float n = pencil_stray * pencil_stray / static_cast<float>(rays);
   f.stray_x = __builtin_sqrtf(((x * x * m.xx + y * y * m.yy) + 2.0F * (x * y * m.xy)) * n);
   f.stray_y = __builtin_sqrtf(((y * y * m.xx + x * x * m.yy) - 2.0F * (x * y * m.xy)) * n);

@@ -219,8 +219,7 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const BlockRun<TriangleBlo
 }
 
 // The rectangles of a run's spheres: those of the boxes around them, along the frame's axes.
-template <class Frame>
-FASTRT_INLINE Rectangles<LeafF> project_spheres(const Frame& f, const BlockRun<SphereBlock>& run) {
+FASTRT_INLINE Rectangles<LeafF> project_spheres(const TileFrame& f, const BlockRun<SphereBlock>& run) {
   const V3<LeafF> center = load_centers(run) - broadcast3<LeafF>(f.origin);
   const LeafF reach = load_two<LeafF>(run.low->radius, run.high->radius) + LeafF(f.padding);
   const LeafF u = cull_dot(center, broadcast3<LeafF>(f.u)), v = cull_dot(center, broadcast3<LeafF>(f.v)),
