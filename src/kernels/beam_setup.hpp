@@ -89,10 +89,9 @@ struct RayColumns {
   const float* dir[3];
 };
 
-// Lines of rays k .., depth counted from the origin of space. Returns those of `bits` that do not look too
-// far aside; the others take no part.
-FASTRT_INLINE std::uint32_t place_rays(const RayColumns& rays, int first, int k, std::uint32_t bits,
-                                       Beam& beam, PacketF& largest_origin) {
+// Lines of rays k .., depth counted from the origin of space; false where one looks too far aside.
+FASTRT_INLINE bool place_rays(const RayColumns& rays, int first, int k, std::uint32_t bits, Beam& beam,
+                              PacketF& largest_origin) {
   const int i = first + k;
   BeamRays& out = beam.rays;
   const PacketF sign(beam.backwards ? -0.0F : 0.0F);
@@ -101,9 +100,6 @@ FASTRT_INLINE std::uint32_t place_rays(const RayColumns& rays, int first, int k,
                 origin_z = flip(load<PacketF>(rays.origin[beam.z] + i), sign);
   const PacketF dir_x = load<PacketF>(rays.dir[beam.x] + i), dir_y = load<PacketF>(rays.dir[beam.y] + i);
   const PacketF scale = flip(load<PacketF>(rays.dir[beam.z] + i), sign), inverse = PacketF(1.0F) / scale;
-  const PacketM forward = (PacketF(2.0F) * scale > max(abs(dir_x), abs(dir_y))) &
-                          (scale > PacketF(1.0F / beam_limit)) & (scale < PacketF(beam_limit));
-  bits &= to_bits(forward);
   const PacketM mask = from_bits<widest>(bits);
   const PacketF none(__builtin_nanf(""));
   select(mask, origin_x, none).store_aligned(out.x + k);
@@ -114,7 +110,9 @@ FASTRT_INLINE std::uint32_t place_rays(const RayColumns& rays, int first, int k,
   scale.store_aligned(out.scale + k);
   largest_origin =
       max(select(mask, largest(V3<PacketF>{origin_x, origin_y, origin_z}), PacketF(0.0F)), largest_origin);
-  return bits;
+  const PacketM forward = (PacketF(2.0F) * scale > max(abs(dir_x), abs(dir_y))) &
+                          (scale > PacketF(1.0F / beam_limit)) & (scale < PacketF(beam_limit));
+  return (to_bits(forward) & bits) == bits;
 }
 
 // Least and most of a group's 16 values; NaN counts for nothing.
@@ -179,20 +177,13 @@ FASTRT_INLINE void set_depth(Beam& beam, int count, float depth) {
   }
 }
 
-// A beam is made of this many rays or more, and of this share of those that could be part of it.
-inline constexpr int least_beam = 8;
-inline constexpr float least_beam_share = 0.5F;
-
 // Prepares rays first .. first + count - 1 (count a multiple of the group's size; what lies beyond the batch
-// takes no part). Returns those that could be part of the beam, but point too widely apart from the others:
-// all of them, and beam.live is 0, if it is not worth its while.
-FASTRT_INLINE std::uint64_t make_beam(const GeometryView& scene, const RayBatch& rays, int first, int count,
-                                      Beam& beam) {
+// takes no part). False if they point too widely apart to be seen as one.
+FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, int first, int count,
+                             Beam& beam) {
   const V3<float> sum =
       sum_directions(rays, first, rays.count - first < count ? rays.count - first : count, beam.live);
-  const std::uint64_t all = beam.live;
-  beam.live = 0;
-  if (!(dot(sum, sum) > 0.0F)) return ~std::uint64_t{0};
+  if (!(dot(sum, sum) > 0.0F)) return false;
   const float along[3] = {magnitude(sum.x), magnitude(sum.y), magnitude(sum.z)};
   beam.z = along[1] > along[0] ? 1 : 0;
   if (along[2] > along[beam.z]) beam.z = 2;
@@ -202,15 +193,10 @@ FASTRT_INLINE std::uint64_t make_beam(const GeometryView& scene, const RayBatch&
   const RayColumns columns{{rays.origin_x, rays.origin_y, rays.origin_z},
                            {rays.dir_x, rays.dir_y, rays.dir_z}};
   PacketF largest_origin(0.0F);
-  std::uint64_t live = 0;
   for (int k = 0; k < count; k += widest)
-    live |= std::uint64_t{place_rays(columns, first, k, static_cast<std::uint32_t>(all >> k) & register_bits,
-                                     beam, largest_origin)}
-            << k;
-  const int size_all = __builtin_popcountll(all), size_live = __builtin_popcountll(live);
-  if (size_live < least_beam ||
-      static_cast<float>(size_live) < least_beam_share * static_cast<float>(size_all))
-    return all;
+    if (!place_rays(columns, first, k, static_cast<std::uint32_t>(beam.live >> k) & register_bits, beam,
+                    largest_origin))
+      return false;
   float depth = __builtin_inff();
   for (int g = 0; g < count / group_size; ++g) {
     const float least = least_of_group(beam.rays.begin + g * group_size);
@@ -219,14 +205,13 @@ FASTRT_INLINE std::uint64_t make_beam(const GeometryView& scene, const RayBatch&
   const float size = reduce_max(largest_origin);
   if (!(size <= far_origin * scene.largest_coordinate && scene.largest_coordinate < beam_limit &&
         scene.largest_coordinate > 1.0F / beam_limit))
-    return all;
+    return false;
   beam.padding = 4.0F * box_padding * (size > scene.largest_coordinate ? size : scene.largest_coordinate);
   set_depth(beam, count, depth);
   for (int g = 0; g < count / group_size; ++g) bound_group(beam, g);
   for (int g = count / group_size; g < beam_groups; ++g) leave_out_group(beam, g);
   beam.depth = depth;
-  beam.live = live;
-  return all & ~live;
+  return true;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -54,20 +54,19 @@ static void traverse_beam(BeamTraversal<any>& t) noexcept {
   }
 }
 
-// Traces rays first .. first + count - 1 (count: a multiple of group_size) as one. Returns those that point
-// too widely apart from the others for that, with which nothing is done.
+// Traces rays first .. first + count - 1 (count: a multiple of group_size) as one; false (and nothing done)
+// if they point too widely apart.
 template <bool any>
-static std::uint64_t trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                                LoneColumns& columns, int first, int count) noexcept {
+static bool trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
+                       int first, int count) noexcept {
   Beam beam;
-  const std::uint64_t left = make_beam(scene, rays, first, count, beam);
-  if (beam.live == 0) return left;
+  if (!make_beam(scene, rays, first, count, beam)) return false;
   BeamTraversal<any> t{scene, rays, hits, columns, first, beam, beam.live};
   for (int g = 0; g < count / group_size; ++g)
     beam.far[g] = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
   traverse_beam(t);
   count_tests(hits, t.nodes, t.tests);
-  return left;
+  return true;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
