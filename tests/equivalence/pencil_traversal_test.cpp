@@ -56,6 +56,33 @@ RayRun pencil(const Scene& scene, float astray, Random& random) {
   return run;
 }
 
+// What a ball mirrors of an eye's rays: the nearer to its outline, the less of a pencil.
+RayRun mirrored_by_ball(const Scene& scene, Random& random) {
+  const float scale = extent_of(scene).radius, radius = scale * any_size(random, -4, 1);
+  const Vec3 middle = origin_at(scene, random),
+             eye = middle + radius * random.uniform(1.5F, 5) * random.direction();
+  const Vec3 aim = middle + 0.9F * radius * random.in_cube();
+  RayRun run = camera_fan(eye, axes_along(glm::normalize(aim - eye), random), any_size(random, -6, -1));
+  for (Ray& ray : run) {
+    const Vec3 dir = glm::normalize(ray.direction), from = eye - middle;
+    const float b = glm::dot(from, dir), inside = b * b - glm::dot(from, from) + radius * radius;
+    if (inside < 0.0F) continue;
+    const Vec3 at = from - (b + std::sqrt(inside)) * dir, normal = at / radius;
+    ray.origin = middle + at;
+    ray.direction = dir - 2.0F * glm::dot(dir, normal) * normal;
+  }
+  return run;
+}
+
+TEST_P(PencilTraversal, OfMirroringBallsFindsWhatBruteForceFinds) {
+  Random random(64);
+  for (int i = 0; i < rounds(200); ++i) {
+    RayRun run = mirrored_by_ball(scene(), random);
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::coherent});
+  }
+}
+
 TEST_P(PencilTraversal, OfExactPencilsFindsWhatBruteForceFinds) {
   Random random(61);
   for (int i = 0; i < rounds(200); ++i) {
