@@ -18,6 +18,8 @@ FASTRT_INLINE Rectangles<F> project_extent(const PencilFrame& f, const F& u0, co
           max(v1 * high0, v1 * high1), w0};
 }
 
+// The rectangles of a run's spheres. (Axes that lean are longer than 1, and spheres reach farther along
+// them.)
 FASTRT_INLINE Rectangles<LeafF> project_spheres(const PencilFrame& f, const BlockRun<SphereBlock>& run) {
   const V3<LeafF> center = load_centers(run) - broadcast3<LeafF>(f.origin);
   const LeafF radius = load_two<LeafF>(run.low->radius, run.high->radius), padding(f.padding);
@@ -28,23 +30,10 @@ FASTRT_INLINE Rectangles<LeafF> project_spheres(const PencilFrame& f, const Bloc
   return project_extent(f, u - ru, u + ru, v - rv, v + rv, w - rw, w + rw);
 }
 
-FASTRT_INLINE void touch_children(const PencilView& view, const WideNode& node, std::uint32_t groups,
-                                  TouchedChildren& out) {
-  using N = Floats<node_lanes>;
-  const N padding(view.frame.padding);
-  out.bits = 0;
-  for (int half = 0; half < wide_children; half += node_lanes) {
-    const float* const columns = node.lower_x + half;
-    const Extent<N> w = box_extent(view.w, columns, padding);
-    const Extent<N> u = box_extent(view.u, columns, padding);
-    const Extent<N> v = box_extent(view.v, columns, padding);
-    const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
-    const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
-                          (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
-    const std::uint32_t bits = to_bits(met);
-    r.near.store_aligned(out.near + half);
-    if (bits != 0) out.bits |= touch_groups(view.groups, r, bits, groups, out.groups + half) << half;
-  }
+// A pencil's boxes begin where its rays do, at the earliest, so their rectangles say it all.
+FASTRT_INLINE std::uint32_t boxes_ahead(const PencilView& /*view*/, const float* /*columns*/,
+                                        const Floats<node_lanes>& /*low*/, std::uint32_t bits) {
+  return bits;
 }
 
 // The edges of triangles as the pencil sees them: a * x + b * y + c (and d * x * y, which goes to the

@@ -178,8 +178,7 @@ FASTRT_INLINE bool fit_pencil(const GeometryView& scene, const RayBatch& rays, i
   f.padding = 4.0F * box_padding * f.size;
   f.end = end_of_scene(scene, f);
   // Depths are known to within the padding, widths so to within a share of themselves.
-  const float most =
-      magnitude(f.spread_u) > magnitude(f.spread_v) ? magnitude(f.spread_u) : magnitude(f.spread_v);
+  const float most = larger(magnitude(f.spread_u), magnitude(f.spread_v));
   return most * f.padding < 0x1p-10F && 1.0F + f.spread_u * f.end > least_width &&
          1.0F + f.spread_v * f.end > least_width;
 }

@@ -38,10 +38,8 @@ FASTRT_INLINE void meet_run(PencilTraversal& tile, const BlockRun<TriangleBlock>
 // The largest |coordinate| of the live rays' origins.
 FASTRT_INLINE float largest_origin(const RayBatch& rays, const LiveRays& live) {
   PacketF most(0.0F);
-  for (int i = 0; i < rays.count; i += widest) {
-    const PacketM mask = from_bits<widest>(live.bits[i / group_size] >> (i % group_size) & register_bits);
-    most = max(select(mask, largest(load_origin(rays, i)), PacketF(0.0F)), most);
-  }
+  for (int i = 0; i < rays.count; i += widest)
+    most = max(select(live_lanes(live, i), largest(load_origin(rays, i)), PacketF(0.0F)), most);
   return reduce_max(most);
 }
 
@@ -81,7 +79,8 @@ static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBat
   return true;
 }
 
-// Whether most of a group's rays leave one primitive: then they are likely to be a pencil.
+// Whether most of a group's rays leave one primitive, or none that they exclude: then they are likely to be a
+// pencil.
 FASTRT_INLINE bool leave_together(const RayBatch& rays, int g, std::uint32_t live) {
   const int first = g * group_size;
   const std::uint32_t same = rays_that_exclude(rays, first, rays.exclude[first + __builtin_ctz(live)]) & live;

@@ -176,7 +176,15 @@ FASTRT_INLINE std::uint32_t within_sides(const TileView& view, const float* colu
   return to_bits(within);
 }
 
-FASTRT_INLINE void touch_children(const TileView& view, const WideNode& node, std::uint32_t groups,
+// Of the boxes in `bits` those that may be met for all that their rectangles say; low: where they begin.
+FASTRT_INLINE std::uint32_t boxes_ahead(const TileView& view, const float* columns,
+                                        const Floats<node_lanes>& low, std::uint32_t bits) {
+  if (!view.frame.perspective || (to_bits(low <= Floats<node_lanes>(0.0F)) & bits) == 0) return bits;
+  return bits & within_sides(view, columns);
+}
+
+template <class View>
+FASTRT_INLINE void touch_children(const View& view, const WideNode& node, std::uint32_t groups,
                                   TouchedChildren& out) {
   using N = Floats<node_lanes>;
   const N padding(view.frame.padding);
@@ -189,9 +197,7 @@ FASTRT_INLINE void touch_children(const TileView& view, const WideNode& node, st
     const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
     const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
                           (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
-    std::uint32_t bits = to_bits(met);
-    if (view.frame.perspective && (to_bits(w.low <= N(0.0F)) & bits) != 0)
-      bits &= within_sides(view, columns);
+    const std::uint32_t bits = boxes_ahead(view, columns, w.low, to_bits(met));
     r.near.store_aligned(out.near + half);
     if (bits != 0) out.bits |= touch_groups(view.groups, r, bits, groups, out.groups + half) << half;
   }

@@ -48,8 +48,6 @@ FASTRT_INLINE PacketM live_lanes(const LiveRays& live, int i) {
   return from_bits<widest>(live.bits[i / group_size] >> (i % group_size) & register_bits);
 }
 
-FASTRT_INLINE float sum_of(const PacketF& a) { return simd::hadd(a); }
-
 // About the middle of the live rays' directions: that of rays at the ends of the batch and between.
 FASTRT_INLINE V3<float> middle_direction(const RayBatch& rays, const LiveRays& live) {
   const V3<float> first = ray_dir(rays, live.first), last = ray_dir(rays, live.last);
@@ -158,7 +156,7 @@ FASTRT_INLINE bool groups_are_compact(const TileGroups& groups, const GroupBound
     const PacketF height = PacketF::load_aligned(groups.y1 + g) - PacketF::load_aligned(groups.y0 + g);
     sum = sum + select(x0 <= x1, (x1 - x0) * height, zero);
   }
-  return sum_of(sum) <= 1.2F * (bounds.x1 - bounds.x0) * (bounds.y1 - bounds.y0);
+  return simd::hadd(sum) <= 1.2F * (bounds.x1 - bounds.x0) * (bounds.y1 - bounds.y0);
 }
 
 // What became of rays that were to be projected: too wide, they can't be seen from one plane; scattered, they

@@ -6,7 +6,19 @@
 namespace fastrt::test {
 namespace {
 
-class PencilTraversal : public BatchTraversal {};
+class PencilTraversal : public BatchTraversal {
+protected:
+  // The runs that make(random) gives.
+  template <class Make>
+  void expect_same_of(std::uint32_t seed, int most, const Make& make) {
+    Random random(seed);
+    for (int i = 0; i < rounds(most); ++i) {
+      RayRun run = make(random);
+      vary(run, scene(), true, random);
+      expect_same(run, any_count(random), {BatchShape::coherent});
+    }
+  }
+};
 
 // Towards the scene, or along some triangle's plane.
 Vec3 way_to(const Scene& scene, const Vec3& origin, Random& random) {
@@ -75,46 +87,29 @@ RayRun mirrored_by_ball(const Scene& scene, Random& random) {
 }
 
 TEST_P(PencilTraversal, OfMirroringBallsFindsWhatBruteForceFinds) {
-  Random random(64);
-  for (int i = 0; i < rounds(200); ++i) {
-    RayRun run = mirrored_by_ball(scene(), random);
-    vary(run, scene(), true, random);
-    expect_same(run, any_count(random), {BatchShape::coherent});
-  }
+  expect_same_of(64, 200, [&](Random& random) { return mirrored_by_ball(scene(), random); });
 }
 
 TEST_P(PencilTraversal, OfExactPencilsFindsWhatBruteForceFinds) {
-  Random random(61);
-  for (int i = 0; i < rounds(200); ++i) {
-    RayRun run = pencil(scene(), 0.0F, random);
-    vary(run, scene(), true, random);
-    expect_same(run, any_count(random), {BatchShape::coherent});
-  }
+  expect_same_of(61, 200, [&](Random& random) { return pencil(scene(), 0.0F, random); });
   expect_hits(0.02);
 }
 
 TEST_P(PencilTraversal, OfRoughPencilsFindsWhatBruteForceFinds) {
-  Random random(62);
-  for (int i = 0; i < rounds(200); ++i) {
-    RayRun run = pencil(scene(), any_size(random, -12, -1), random);
-    vary(run, scene(), true, random);
-    expect_same(run, any_count(random), {BatchShape::coherent});
-  }
+  expect_same_of(62, 200, [&](Random& random) { return pencil(scene(), any_size(random, -12, -1), random); });
   expect_hits(0.02);
 }
 
 TEST_P(PencilTraversal, OfSeveralPencilsFindsWhatBruteForceFinds) {
-  Random random(63);
-  for (int i = 0; i < rounds(100); ++i) {
+  expect_same_of(63, 100, [&](Random& random) {
     const RayRun first = pencil(scene(), 0.0F, random), second = pencil(scene(), 0.01F, random),
                  third = pencil(scene(), 0.0F, random);
     RayRun run = across_edges(first, second, third, random);
     // Whole groups of one surface, as tiles have that an edge goes through.
     for (std::size_t k = 0; k < run.size(); ++k)
       if (k / 16 % 3 != 0) run[k] = k / 16 % 3 == 1 ? first[k] : second[k];
-    vary(run, scene(), true, random);
-    expect_same(run, any_count(random), {BatchShape::coherent});
-  }
+    return run;
+  });
   expect_hits(0.02);
 }
 
