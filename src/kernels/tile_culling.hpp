@@ -299,16 +299,19 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
   if (!view.frame.perspective) return {bound_parallel(p, near, far - near, padding), p};
   const LeafF ai = one / aw, bi = one / bw, ci = one / cw, scale = max(ai, max(bi, ci));
   p = {p.ax * ai, p.ay * ai, p.bx * bi, p.by * bi, p.cx * ci, p.cy * ci};
-  Rectangles<LeafF> r = bound_perspective(p, near, far, scale, padding);
+  const Rectangles<LeafF> r = bound_perspective(p, near, far, scale, padding);
   const MaskOf<LeafF> around = near <= LeafF(0.0F);
-  if (to_bits(around) == 0) return {r, p};
-  const LeafF everywhere(__builtin_inff()), nowhere = negate(everywhere);
-  const MaskOf<LeafF> within = from_bits<leaf_lanes>(within_sides(view, a, b, c));
-  r.x0 = select(around, select(within, nowhere, everywhere), r.x0);
-  r.x1 = select(around, everywhere, r.x1);
-  r.y0 = select(around, nowhere, r.y0);
-  r.y1 = select(around, everywhere, r.y1);
-  return {r, p};
+  // Lane by lane: a copy of the whole would be read from memory before its parts are there.
+  LeafF x0 = r.x0, x1 = r.x1, y0 = r.y0, y1 = r.y1;
+  if (to_bits(around) != 0) {
+    const LeafF everywhere(__builtin_inff()), nowhere = negate(everywhere);
+    const MaskOf<LeafF> within = from_bits<leaf_lanes>(within_sides(view, a, b, c));
+    x0 = select(around, select(within, nowhere, everywhere), x0);
+    x1 = select(around, everywhere, x1);
+    y0 = select(around, nowhere, y0);
+    y1 = select(around, everywhere, y1);
+  }
+  return {{x0, x1, y0, y1, near}, p};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
