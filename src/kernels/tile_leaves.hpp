@@ -23,6 +23,7 @@ struct TileTraversal {
   typename View::Points points;
   View view;
   std::uint32_t nodes = 0, tests = 0;
+  bool shortened = false; // some group looks less far than the view knows
 };
 
 // A triangle that covers more groups than this by its rectangle is first held against their corners by its

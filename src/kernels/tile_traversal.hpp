@@ -9,7 +9,7 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-struct TileEntry {
+struct alignas(16) TileEntry {
   std::uint32_t child;
   std::uint32_t groups;
   float near, order;
@@ -42,6 +42,14 @@ FASTRT_INLINE float order_of(const WideNode& node, float near, int child) {
   return any ? -static_cast<float>(node.size[child]) : near;
 }
 
+// With one store: entries are moved as a whole, and what is read whole must have been written whole, or the
+// reader waits.
+FASTRT_INLINE void store_entry(const TileEntry& e, TileEntry* place) {
+  _mm_store_si128(reinterpret_cast<__m128i*>(place),
+                  _mm_setr_epi32(static_cast<int>(e.child), static_cast<int>(e.groups),
+                                 __builtin_bit_cast(int, e.near), __builtin_bit_cast(int, e.order)));
+}
+
 // Puts the children that were touched onto the stack.
 template <bool any>
 FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode& node,
@@ -50,10 +58,10 @@ FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode
   for (std::uint32_t bits = c.bits; bits != 0; bits &= bits - 1) {
     const int i = __builtin_ctz(bits);
     prefetch_child(scene, node.child[i]);
-    const TileEntry entry{node.child[i], c.groups[i], c.near[i], order_of<any>(node, c.near[i], i)};
+    const float order = order_of<any>(node, c.near[i], i);
     TileEntry* place = top++;
-    for (; place != bottom && place[-1].order < entry.order; --place) *place = place[-1];
-    *place = entry;
+    for (; place != bottom && place[-1].order < order; --place) *place = place[-1];
+    store_entry({node.child[i], c.groups[i], c.near[i], order}, place);
   }
   return top;
 }
@@ -70,7 +78,8 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
     if (groups == 0) continue;
     if (is_leaf(entry.child)) {
       meet_leaf(tile, entry.child, groups);
-      tile.view.far = most_of(tile.view.groups.far);
+      if (tile.shortened) tile.view.far = most_of(tile.view.groups.far);
+      tile.shortened = false;
       continue;
     }
     const WideNode& node = tile.scene.nodes[entry.child];
