@@ -24,6 +24,11 @@ struct BlockRun {
   [[gnu::always_inline]] inline std::int32_t primitive(int lane) const {
     return block_of(lane).primitive[lane % block_size];
   }
+  // ids: of all leaf_lanes lanes, aligned.
+  [[gnu::always_inline]] inline void store_primitives(std::int32_t* ids) const {
+    for (int i = 0; i < leaf_lanes; i += block_size)
+      Ints<block_size>::load_aligned((i == 0 ? low : high)->primitive).store_aligned(ids + i);
+  }
 };
 
 // Calls meet(run) for the blocks of a leaf, as many at once as fit.

@@ -42,6 +42,27 @@ FASTRT_INLINE void shorten_group(TileTraversal<any, View>& tile, int g, std::uin
   }
 }
 
+// Keeps hits of the rays from row i on. Returns the lanes that took them.
+template <bool any, class View>
+FASTRT_INLINE std::uint32_t keep_hits(TileTraversal<any, View>& tile, int i, const PacketM& hit,
+                                      const PacketF& t, std::int32_t primitive) {
+  const PacketI exclude = PacketI::load_aligned(tile.rays.exclude + i);
+  PacketF best_t = PacketF::load_aligned(tile.hits.t + i);
+  PacketI best_primitive = PacketI::load_aligned(tile.hits.primitive + i);
+  if constexpr (any) {
+    const PacketI id(primitive);
+    const PacketM taken = hit & (t < best_t) & simd::bool_cast(id != exclude);
+    select_ints<PacketF>(taken, id, best_primitive).store_aligned(tile.hits.primitive + i);
+    return to_bits(taken);
+  } else {
+    const std::uint32_t kept = keep_closest(best_t, best_primitive, exclude, hit, t, primitive);
+    if (kept == 0) return 0;
+    best_t.store_aligned(tile.hits.t + i);
+    best_primitive.store_aligned(tile.hits.primitive + i);
+    return kept;
+  }
+}
+
 // One primitive against the rays of group g in `bits`. meet(ray) gives the lanes that it hits and their t.
 template <bool any, class View, class Meet>
 FASTRT_INLINE void meet_group(TileTraversal<any, View>& tile, int g, std::uint32_t bits,
@@ -54,14 +75,7 @@ FASTRT_INLINE void meet_group(TileTraversal<any, View>& tile, int g, std::uint32
     const auto [hit, t] = meet(i);
     const PacketM counted = hit & from_bits<widest>(bits >> k);
     if (to_bits(counted) == 0) continue;
-    PacketF best_t = PacketF::load_aligned(tile.hits.t + i);
-    PacketI best_primitive = PacketI::load_aligned(tile.hits.primitive + i);
-    const std::uint32_t kept = keep_closest(
-        best_t, best_primitive, PacketI::load_aligned(tile.rays.exclude + i), counted, t, primitive);
-    if (kept == 0) continue;
-    best_t.store_aligned(tile.hits.t + i);
-    best_primitive.store_aligned(tile.hits.primitive + i);
-    changed |= kept << k;
+    changed |= keep_hits(tile, i, counted, t, primitive) << k;
   }
   if (changed != 0) shorten_group(tile, g, changed);
 }
@@ -133,13 +147,15 @@ FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const Blo
       groups = groups_inside_edges(tile.view.groups, edges, i, groups);
     pairs[i / at_once] |= static_cast<std::uint64_t>(groups) << (i % at_once * batch_groups);
   }
+  alignas(32) std::int32_t ids[leaf_lanes];
+  run.store_primitives(ids);
   MetPair met[leaf_lanes * batch_groups];
   int count = 0;
   for (int first = 0; first < leaf_lanes; first += at_once)
     for (std::uint64_t left = pairs[first / at_once]; left != 0; left &= left - 1) {
       const int bit = __builtin_ctzll(left), i = first + bit / batch_groups, g = bit % batch_groups;
       const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
-                                 ~rays_that_exclude(tile.rays, g * group_size, run.primitive(i));
+                                 ~rays_that_exclude(tile.rays, g * group_size, ids[i]);
       met[count] = {i, g, rays};
       count += rays != 0 ? 1 : 0;
     }
