@@ -23,23 +23,34 @@ struct TileTraversal {
   typename View::Points points;
   View view;
   std::uint32_t nodes = 0, tests = 0;
-  bool shortened = false; // some group looks less far than the view knows
+  std::uint32_t shortened = 0; // groups that may look less far than the view knows
 };
 
 // A triangle that covers more groups than this by its rectangle is first held against their corners by its
 // edges.
 inline constexpr int many_groups = 3;
 
-// After hits of the rays in `bits` of group g: how far the group still looks. Rays that have a hit look no
-// more if any will do.
+// After hits of the rays in `bits` of group g. Rays that have a hit look no more if any will do.
 template <bool any, class View>
 FASTRT_INLINE void shorten_group(TileTraversal<any, View>& tile, int g, std::uint32_t bits) {
+  if constexpr (any) tile.open[g] &= ~bits;
+  tile.shortened |= (!any || tile.open[g] == 0 ? 1U : 0U) << g;
+}
+
+// After a leaf: how far the groups that have changed still look. (Not after each test: a group is met by several
+// triangles of a leaf, and finding out takes as long as another test.)
+template <bool any, class View>
+FASTRT_INLINE void shorten_view(TileTraversal<any, View>& tile) {
+  TileGroups& groups = tile.view.groups;
   if constexpr (any) {
-    tile.open[g] &= ~bits;
-    if (tile.open[g] == 0) tile.view.groups.far[g] = -__builtin_inff();
+    for (std::uint32_t left = tile.shortened; left != 0; left &= left - 1)
+      groups.far[__builtin_ctz(left)] = -__builtin_inff();
   } else {
-    tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.open[g], g);
+    for (int g = 0; g < batch_groups; g += 4)
+      if ((tile.shortened >> g & 15U) != 0) bound_depths(tile.hits, tile.open, g, groups);
   }
+  tile.view.far = most_of(groups.far);
+  tile.shortened = 0;
 }
 
 // Keeps hits of the rays from row i on. Returns the lanes that took them.

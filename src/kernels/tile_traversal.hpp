@@ -78,8 +78,7 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
     if (groups == 0) continue;
     if (is_leaf(entry.child)) {
       meet_leaf(tile, entry.child, groups);
-      if (tile.shortened) tile.view.far = most_of(tile.view.groups.far);
-      tile.shortened = false;
+      if (tile.shortened != 0) shorten_view(tile);
       continue;
     }
     const WideNode& node = tile.scene.nodes[entry.child];
@@ -101,9 +100,7 @@ static Projection trace_together(const GeometryView& scene, const RayBatch& rays
   if (projection == Projection::scattered && !split_groups(tile.points, tile.view.groups, live, others))
     return Projection::too_wide;
   if (projection != Projection::done) return projection;
-  for (int g = 0; g < batch_groups; ++g)
-    tile.view.groups.far[g] =
-        live.bits[g] == 0 ? -__builtin_inff() : group_far(hits, tile.view.groups, live.bits[g], g);
+  for (int g = 0; g < batch_groups; g += 4) bound_depths(hits, tile.open, g, tile.view.groups);
   aim_view(tile.view);
   traverse(tile);
   count_tests(hits, tile.nodes, tile.tests);
