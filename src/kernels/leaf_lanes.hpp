@@ -24,11 +24,6 @@ struct BlockRun {
   [[gnu::always_inline]] inline std::int32_t primitive(int lane) const {
     return block_of(lane).primitive[lane % block_size];
   }
-  // ids: of all leaf_lanes lanes, aligned.
-  [[gnu::always_inline]] inline void store_primitives(std::int32_t* ids) const {
-    for (int i = 0; i < leaf_lanes; i += block_size)
-      Ints<block_size>::load_aligned((i == 0 ? low : high)->primitive).store_aligned(ids + i);
-  }
 };
 
 // Calls meet(run) for the blocks of a leaf, as many at once as fit.
@@ -49,9 +44,9 @@ FASTRT_INLINE V3<LeafF> load_vertices(const BlockRun<TriangleBlock>& run, int v)
           load_two<LeafF>(run.low->z[v], run.high->z[v])};
 }
 
-// Vertex v of the triangle in one lane, spread over a register.
-template <class F>
-FASTRT_INLINE V3<F> spread_vertex(const BlockRun<TriangleBlock>& run, int v, int lane) {
+// Vertex v of the triangle in one lane of a run, spread over a register.
+template <class F, class Run>
+FASTRT_INLINE V3<F> spread_vertex(const Run& run, int v, int lane) {
   const TriangleBlock& block = run.block_of(lane);
   const int i = lane % block_size;
   return broadcast3<F>(block.x[v][i], block.y[v][i], block.z[v][i]);

@@ -39,21 +39,21 @@ FASTRT_INLINE std::uint32_t boxes_ahead(const PencilView& /*view*/, const float*
 // The edges of triangles as the pencil sees them: a * x + b * y + c (and d * x * y, which goes to the
 // margin), positive inside.
 struct PencilEdge {
-  LeafF a, b, c, d;
-  LeafF normal_u, normal_v; // of the plane through the edge and the origin
+  PacketF a, b, c, d;
+  PacketF normal_u, normal_v; // of the plane through the edge and the origin
 };
 
 // From corner p to corner q: which way the pencil's ray at (x, y) turns around the edge. The ray passes
 // through (x, y, 0) along (spread_u * x, spread_v * y, 1).
-FASTRT_INLINE PencilEdge edge_between(const PencilFrame& f, const V3<LeafF>& p, const V3<LeafF>& q) {
+FASTRT_INLINE PencilEdge edge_between(const PencilFrame& f, const V3<PacketF>& p, const V3<PacketF>& q) {
   // Not p x q: its rounding would follow the square of the distance instead of the edge's length.
-  const V3<LeafF> e = q - p;
-  const LeafF nx = cull_mul_sub(p.y, e.z, p.z * e.y), ny = cull_mul_sub(p.z, e.x, p.x * e.z),
-              nz = cull_mul_sub(p.x, e.y, p.y * e.x);
-  return {cull_mul_sub(LeafF(f.spread_u), nx, e.y),
-          cull_mul_add(LeafF(f.spread_v), ny, e.x),
+  const V3<PacketF> e = q - p;
+  const PacketF nx = cull_mul_sub(p.y, e.z, p.z * e.y), ny = cull_mul_sub(p.z, e.x, p.x * e.z),
+                nz = cull_mul_sub(p.x, e.y, p.y * e.x);
+  return {cull_mul_sub(PacketF(f.spread_u), nx, e.y),
+          cull_mul_add(PacketF(f.spread_v), ny, e.x),
           nz,
-          LeafF(f.spread_v - f.spread_u) * e.z,
+          PacketF(f.spread_v - f.spread_u) * e.z,
           nx,
           ny};
 }
@@ -66,45 +66,45 @@ inline constexpr float pencil_line_margin = 0x1p-16F;
 // their margin lies apart.
 struct PencilEdges {
   EdgeLines lines;
-  alignas(32) float margin[leaf_lanes];
+  alignas(64) float margin[widest];
   std::uint32_t unsure;
 };
 
 // Corners relative to the frame's origin. A ray that hits a triangle passes its box at a point P, and the
 // pencil's ray through P differs from it by its slope alone; so its edges may be missed by what the slopes'
 // difference makes of the triangle, and by what the test lets through.
-FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<LeafF>& a, const V3<LeafF>& b,
-                                   const V3<LeafF>& c, const LeafF& side, PencilEdges& out) {
+FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<PacketF>& a, const V3<PacketF>& b,
+                                   const V3<PacketF>& c, const PacketF& side, PencilEdges& out) {
   const PencilFrame& f = view.frame;
-  const auto seen = [&](const V3<LeafF>& p) {
-    return V3<LeafF>{cull_dot(p, broadcast3<LeafF>(f.u)), cull_dot(p, broadcast3<LeafF>(f.v)),
-                     cull_dot(p, broadcast3<LeafF>(f.w))};
+  const auto seen = [&](const V3<PacketF>& p) {
+    return V3<PacketF>{cull_dot(p, broadcast3<PacketF>(f.u)), cull_dot(p, broadcast3<PacketF>(f.v)),
+                       cull_dot(p, broadcast3<PacketF>(f.w))};
   };
-  const V3<LeafF> p = seen(a), q = seen(b), r = seen(c);
+  const V3<PacketF> p = seen(a), q = seen(b), r = seen(c);
   const PencilEdge edges[3] = {edge_between(f, p, q), edge_between(f, q, r), edge_between(f, r, p)};
-  const LeafF most_x(view.most_x), most_y(view.most_y), most_xy(view.most_x * view.most_y);
-  const LeafF away = max(largest(p), max(largest(q), largest(r))) + LeafF(f.largest_begin);
-  const LeafF lets = side * (away * LeafF(pencil_line_margin)), slope(f.stray_slope);
-  const LeafF normal = max(abs((edges[0].normal_u + edges[1].normal_u) + edges[2].normal_u),
-                           abs((edges[0].normal_v + edges[1].normal_v) + edges[2].normal_v));
-  const LeafF turns_off = slope * normal, turn = (edges[0].c + edges[1].c) + edges[2].c;
-  const LeafF turns_by = cull_mul_add(abs((edges[0].a + edges[1].a) + edges[2].a), most_x,
-                                      cull_mul_add(abs((edges[0].b + edges[1].b) + edges[2].b), most_y,
-                                                   cull_mul_add(LeafF(16.0F), lets, turns_off)));
-  const MaskOf<LeafF> sure = abs(turn) > turns_by;
+  const PacketF most_x(view.most_x), most_y(view.most_y), most_xy(view.most_x * view.most_y);
+  const PacketF away = max(largest(p), max(largest(q), largest(r))) + PacketF(f.largest_begin);
+  const PacketF lets = side * (away * PacketF(pencil_line_margin)), slope(f.stray_slope);
+  const PacketF normal = max(abs((edges[0].normal_u + edges[1].normal_u) + edges[2].normal_u),
+                             abs((edges[0].normal_v + edges[1].normal_v) + edges[2].normal_v));
+  const PacketF turns_off = slope * normal, turn = (edges[0].c + edges[1].c) + edges[2].c;
+  const PacketF turns_by = cull_mul_add(abs((edges[0].a + edges[1].a) + edges[2].a), most_x,
+                                        cull_mul_add(abs((edges[0].b + edges[1].b) + edges[2].b), most_y,
+                                                     cull_mul_add(PacketF(16.0F), lets, turns_off)));
+  const MaskOf<PacketF> sure = abs(turn) > turns_by;
   out.unsure = ~to_bits(sure);
-  const LeafF zero(0.0F), sign = select(sure, sign_bit(turn), zero), square = side * side;
-  const LeafF margin = cull_mul_add(LeafF(2.0F), turns_off, cull_mul_add(slope, square, lets));
-  LeafF most = zero;
+  const PacketF zero(0.0F), sign = select(sure, sign_bit(turn), zero), square = side * side;
+  const PacketF margin = cull_mul_add(PacketF(2.0F), turns_off, cull_mul_add(slope, square, lets));
+  PacketF most = zero;
   for (int e = 0; e < 3; ++e) {
     const PencilEdge& line = edges[e];
-    const LeafF strays = cull_mul_add(abs(line.a), LeafF(f.stray_x),
-                                      cull_mul_add(abs(line.b), LeafF(f.stray_y), abs(line.d) * most_xy));
+    const PacketF strays = cull_mul_add(abs(line.a), PacketF(f.stray_x),
+                                        cull_mul_add(abs(line.b), PacketF(f.stray_y), abs(line.d) * most_xy));
     most = max(most, strays);
     store_line(out.lines, e, flip(line.a, sign), flip(line.b, sign),
                flip(line.c, sign) + select(sure, strays + margin, zero));
   }
-  (most + cull_mul_add(slope * square, LeafF(5.0F), lets)).store_aligned(out.margin);
+  (most + cull_mul_add(slope * square, PacketF(5.0F), lets)).store_aligned(out.margin);
 }
 
 // Of the groups in `bits`, those whose rectangle reaches inside all edges of triangle i; all, if it is

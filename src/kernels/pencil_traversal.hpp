@@ -16,21 +16,20 @@ inline constexpr int max_pencils = 8, max_pencil_failures = 2;
 
 using PencilTraversal = TileTraversal<false, PencilView>;
 
-FASTRT_INLINE void meet_run(PencilTraversal& tile, const BlockRun<TriangleBlock>& run, std::uint32_t groups) {
+FASTRT_INLINE void meet_run(PencilTraversal& tile, const TriangleRun& run) {
   const PencilFrame& f = tile.view.frame;
-  const V3<LeafF> origin = broadcast3<LeafF>(f.origin);
-  const V3<LeafF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
-                  c = load_vertices(run, 2) - origin;
+  const V3<PacketF> origin = broadcast3<PacketF>(f.origin);
+  const V3<PacketF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
+                    c = load_vertices(run, 2) - origin;
   // All hits lie in a triangle's box, not in the triangle as the pencil sees it: that may be edge-on.
-  const V3<LeafF> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
-  const V3<LeafF> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
-  std::uint32_t touched[leaf_lanes];
-  const std::uint32_t some =
-      touch_groups(tile.view.groups, project_box(f, low, high), lanes_of(run), groups, touched);
+  const V3<PacketF> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
+  const V3<PacketF> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
+  std::uint32_t touched[widest];
+  const std::uint32_t some = touch_triangles(tile.view.groups, run, project_box(f, low, high), touched);
   if (some == 0) return;
   PencilEdges edges;
   // (With rounding: corners of tiny triangles may be as far apart as they are wrong.)
-  lines_in_pencil(tile.view, a, b, c, largest(high - low) + LeafF(f.padding), edges);
+  lines_in_pencil(tile.view, a, b, c, largest(high - low) + PacketF(f.padding), edges);
   for_each_pair(tile, run, edges, some, touched,
                 [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
 }

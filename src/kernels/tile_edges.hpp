@@ -10,10 +10,10 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 // The edges of a run's triangles as lines a*x + b*y + c >= 0 of the plane, positive inside, with a margin in
 // c.
 struct EdgeLines {
-  alignas(32) float a[3][leaf_lanes], b[3][leaf_lanes], c[3][leaf_lanes];
+  alignas(64) float a[3][widest], b[3][widest], c[3][widest];
 };
 
-FASTRT_INLINE void store_line(EdgeLines& lines, int e, const LeafF& a, const LeafF& b, const LeafF& c) {
+FASTRT_INLINE void store_line(EdgeLines& lines, int e, const PacketF& a, const PacketF& b, const PacketF& c) {
   a.store_aligned(lines.a[e]);
   b.store_aligned(lines.b[e]);
   c.store_aligned(lines.c[e]);
@@ -24,31 +24,31 @@ FASTRT_INLINE void store_line(EdgeLines& lines, int e, const LeafF& a, const Lea
 // is seen end-on are small, their errors are not.)
 inline constexpr float line_margin = 0x1p-17F;
 
-FASTRT_INLINE LeafF largest_side(const TriangleReach<LeafF>& reach) {
+FASTRT_INLINE PacketF largest_side(const TriangleReach<PacketF>& reach) {
   return largest(reach.high - reach.low);
 }
 
 // Rays of one origin: an edge's plane through the origin is a line of the plane. low, high: the box of the
 // triangle relative to the origin.
-FASTRT_INLINE void lines_from_setup(const TileFrame& f, const TriangleSetup<LeafF>& s,
-                                    const TriangleReach<LeafF>& reach, EdgeLines& lines) {
-  const V3<LeafF> u = broadcast3<LeafF>(f.u), v = broadcast3<LeafF>(f.v), w = broadcast3<LeafF>(f.w);
-  const V3<LeafF>* const edges[3] = {&s.edge_a, &s.edge_b, &s.edge_c};
-  const LeafF margin =
-      (largest_side(reach) * max(largest(reach.low), largest(reach.high))) * LeafF(line_margin);
+FASTRT_INLINE void lines_from_setup(const TileFrame& f, const TriangleSetup<PacketF>& s,
+                                    const TriangleReach<PacketF>& reach, EdgeLines& lines) {
+  const V3<PacketF> u = broadcast3<PacketF>(f.u), v = broadcast3<PacketF>(f.v), w = broadcast3<PacketF>(f.w);
+  const V3<PacketF>* const edges[3] = {&s.edge_a, &s.edge_b, &s.edge_c};
+  const PacketF margin =
+      (largest_side(reach) * max(largest(reach.low), largest(reach.high))) * PacketF(line_margin);
   for (int e = 0; e < 3; ++e)
     store_line(lines, e, cull_dot(*edges[e], u), cull_dot(*edges[e], v), cull_dot(*edges[e], w) + margin);
 }
 
 // Parallel rays: the edges between the projected corners.
 FASTRT_INLINE void lines_from_corners(const TileFrame& f, const ProjectedCorners& t,
-                                      const TriangleReach<LeafF>& reach, EdgeLines& lines) {
-  const LeafF x[4] = {t.ax, t.bx, t.cx, t.ax}, y[4] = {t.ay, t.by, t.cy, t.ay};
-  const LeafF area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
-  const LeafF sign = sign_bit(area);
-  const LeafF margin = largest_side(reach) * LeafF(4.0F * f.padding);
+                                      const TriangleReach<PacketF>& reach, EdgeLines& lines) {
+  const PacketF x[4] = {t.ax, t.bx, t.cx, t.ax}, y[4] = {t.ay, t.by, t.cy, t.ay};
+  const PacketF area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
+  const PacketF sign = sign_bit(area);
+  const PacketF margin = largest_side(reach) * PacketF(4.0F * f.padding);
   for (int e = 0; e < 3; ++e) {
-    const LeafF a = flip(y[e] - y[e + 1], sign), b = flip(x[e + 1] - x[e], sign);
+    const PacketF a = flip(y[e] - y[e + 1], sign), b = flip(x[e + 1] - x[e], sign);
     store_line(lines, e, a, b, margin - (a * x[e] + b * y[e]));
   }
 }

@@ -86,6 +86,7 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
     touch_children(tile.view, node, groups, children);
     top = push_children<any>(tile.scene, node, children, top);
   }
+  if (tile.waiting.count != 0) meet_waiting(tile);
 }
 
 // Traces the rays in `live` as one. If they are scattered, nothing is done but to move some of them to

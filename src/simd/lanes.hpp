@@ -125,6 +125,22 @@ FASTRT_INLINE F load_two(const float* low, [[maybe_unused]] const float* high) {
   if constexpr (width_of<F> == 4) return F::load_unaligned(low);
 }
 
+// Four floats from each of as many places as fill a register of F.
+template <class F>
+FASTRT_INLINE F load_quads(const float* const (&from)[width_of<F> / 4]) {
+#if defined(__AVX512DQ__)
+  if constexpr (width_of<F> == 16) {
+    const __m256 low = load_two<Floats<8>>(from[0], from[1]).data;
+    const __m256 high = load_two<Floats<8>>(from[2], from[3]).data;
+    return F(_mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1));
+  }
+#endif
+#if defined(__AVX2__)
+  if constexpr (width_of<F> == 8) return load_two<F>(from[0], from[1]);
+#endif
+  if constexpr (width_of<F> == 4) return F::load_unaligned(from[0]);
+}
+
 // min, max, select and abs of batches are xsimd's own, found by argument-dependent lookup. min and max give
 // the second operand when one is NaN, like minps; docs/numerics.md builds on it.
 

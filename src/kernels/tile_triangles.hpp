@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tile and triangles: as many as fill a register are projected and sieved, and what is left is tested with
+// one register of rays at a time. Rays of a common origin share a triangle's set-up without changing a bit.
+#pragma once
+
+#include "src/kernels/tile_hits.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// A triangle that covers more groups than this by its rectangle is first held against their corners by its
+// edges.
+inline constexpr int many_groups = 3;
+
+// Set-ups and reaches of a run as columns, so that one can be spread over a register.
+struct BlockSetup {
+  alignas(64) float columns[19][widest];
+};
+
+FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<PacketF>& s, const TriangleReach<PacketF>& r) {
+  BlockSetup out;
+  store3(s.edge_a, out.columns[0], out.columns[1], out.columns[2]);
+  store3(s.edge_b, out.columns[3], out.columns[4], out.columns[5]);
+  store3(s.edge_c, out.columns[6], out.columns[7], out.columns[8]);
+  store3(s.normal, out.columns[9], out.columns[10], out.columns[11]);
+  s.offset.store_aligned(out.columns[12]);
+  store3(r.low, out.columns[13], out.columns[14], out.columns[15]);
+  store3(r.high, out.columns[16], out.columns[17], out.columns[18]);
+  return out;
+}
+
+FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
+  return broadcast3<PacketF>(s.columns[column][i], s.columns[column + 1][i], s.columns[column + 2][i]);
+}
+
+// Vertex v of a run's triangles.
+FASTRT_INLINE V3<PacketF> load_vertices(const TriangleRun& run, int v) {
+  const float *x[TriangleRun::most_blocks], *y[TriangleRun::most_blocks], *z[TriangleRun::most_blocks];
+  for (int k = 0; k < TriangleRun::most_blocks; ++k) {
+    x[k] = run.block[k]->x[v];
+    y[k] = run.block[k]->y[v];
+    z[k] = run.block[k]->z[v];
+  }
+  return {load_quads<PacketF>(x), load_quads<PacketF>(y), load_quads<PacketF>(z)};
+}
+
+// touch_groups() for a run's triangles, each of which may only touch groups that reached its leaf.
+FASTRT_INLINE std::uint32_t touch_triangles(const TileGroups& groups, const TriangleRun& run,
+                                            const Rectangles<PacketF>& bounds, std::uint32_t* touched) {
+  std::uint32_t of_any = 0;
+  for (int k = 0; k < run.count; ++k) of_any |= run.groups[k];
+  const std::uint32_t lanes = (1U << run.count * block_size) - 1U;
+  std::uint32_t some = touch_groups(groups, bounds, lanes, of_any, touched);
+  for (int k = 0; k < run.count; ++k) {
+    if (run.groups[k] == of_any) continue;
+    for (int i = k * block_size; i < (k + 1) * block_size; ++i) {
+      touched[i] &= run.groups[k];
+      some &= ~((touched[i] == 0 ? 1U : 0U) << i);
+    }
+  }
+  return some;
+}
+
+// A triangle of a run and the rays of a group that its edges let through.
+struct MetPair {
+  std::int32_t triangle, group;
+  std::uint32_t rays;
+};
+
+// Of the 16 rays from row `first` on those that a primitive is excluded for: often it is the surface that
+// they leave or go to, which all of them would be tested against.
+FASTRT_INLINE std::uint32_t rays_that_exclude(const RayBatch& rays, int first, std::int32_t primitive) {
+  const PacketI id(primitive);
+  std::uint32_t bits = 0;
+  for (int k = 0; k < group_size; k += widest)
+    bits |= to_bits(simd::bool_cast(PacketI::load_aligned(rays.exclude + first + k) == id)) << k;
+  return bits;
+}
+
+// What the edges of a run's triangles let through of the groups that they touch: act(triangle, group, rays).
+// First all triangles against their groups' corners, then all pairs against the rays, then what is left:
+// three loops whose ends and branches can be foreseen better than those of loops in each other.
+template <bool any, class View, class Edges, class Act>
+FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const TriangleRun& run,
+                                 const Edges& edges, std::uint32_t some, const std::uint32_t* touched,
+                                 const Act& act) {
+  constexpr int at_once = 64 / batch_groups;
+  std::uint64_t pairs[widest / at_once] = {};
+  for (; some != 0; some &= some - 1) {
+    const int i = __builtin_ctz(some);
+    std::uint32_t groups = touched[i];
+    if (__builtin_popcount(groups) > many_groups)
+      groups = groups_inside_edges(tile.view.groups, edges, i, groups);
+    pairs[i / at_once] |= static_cast<std::uint64_t>(groups) << (i % at_once * batch_groups);
+  }
+  alignas(64) std::int32_t ids[widest];
+  for (int k = 0; k < TriangleRun::most_blocks; ++k)
+    load<Ints<block_size>>(run.block[k]->primitive).store_aligned(ids + k * block_size);
+  MetPair met[widest * batch_groups];
+  int count = 0;
+  for (int first = 0; first < widest; first += at_once)
+    for (std::uint64_t left = pairs[first / at_once]; left != 0; left &= left - 1) {
+      const int bit = __builtin_ctzll(left), i = first + bit / batch_groups, g = bit % batch_groups;
+      const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
+                                 ~rays_that_exclude(tile.rays, g * group_size, ids[i]);
+      met[count] = {i, g, rays};
+      count += rays != 0 ? 1 : 0;
+    }
+  for (int k = 0; k < count; ++k) {
+    const std::uint32_t rays = any ? met[k].rays & tile.open[met[k].group] : met[k].rays;
+    if (rays != 0) act(met[k].triangle, met[k].group, rays);
+  }
+}
+
+// The triangles of a run in `some` against the groups that they touch, all rays from one origin.
+template <bool any>
+FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const TriangleRun& run, const BlockSetup& block,
+                                    const EdgeLines& lines, std::uint32_t some,
+                                    const std::uint32_t* touched) {
+  for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
+    const TriangleSetup<PacketF> setup{spread(block, 0, i), spread(block, 3, i), spread(block, 6, i),
+                                       spread(block, 9, i), PacketF(block.columns[12][i])};
+    const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
+    meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
+      const TriangleLanes<PacketF> lanes = intersect_triangle(
+          setup, load_dir(tile.rays, ray), rays >> (ray % group_size) & register_bits, reach);
+      return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
+    });
+  });
+}
+
+// Triangle i of a run against the rays of group g in `rays`, each from its own origin.
+template <bool any, class View>
+FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const TriangleRun& run, int i, int g,
+                                    std::uint32_t rays) {
+  const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, i), v1 = spread_vertex<PacketF>(run, 1, i),
+                    v2 = spread_vertex<PacketF>(run, 2, i);
+  meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
+    const V3<PacketF> origin = load_origin(tile.rays, ray);
+    const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
+    const TriangleLanes<PacketF> lanes = intersect_triangle(
+        a, b, c, load_dir(tile.rays, ray), largest(origin), rays >> (ray % group_size) & register_bits);
+    return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
+  });
+}
+
+// The triangles of a run in `some` against the groups that they touch, parallel rays.
+template <bool any>
+FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const TriangleRun& run, const EdgeLines& lines,
+                                 std::uint32_t some, const std::uint32_t* touched) {
+  for_each_pair(tile, run, lines, some, touched,
+                [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
+}
+
+template <bool any>
+FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const TriangleRun& run) {
+  const TileFrame& f = tile.view.frame;
+  const V3<PacketF> origin = broadcast3<PacketF>(f.origin);
+  const V3<PacketF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
+                    c = load_vertices(run, 2) - origin;
+  const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
+  std::uint32_t touched[widest];
+  const std::uint32_t some = touch_triangles(tile.view.groups, run, projected.bounds, touched);
+  if (some == 0) return;
+  EdgeLines lines;
+  const TriangleReach<PacketF> reach = reach_of(a, b, c, largest(origin));
+  if (!f.perspective) {
+    lines_from_corners(f, projected.corners, reach, lines);
+    meet_parallel(tile, run, lines, some, touched);
+    return;
+  }
+  const TriangleSetup<PacketF> setup = set_up_triangle(a, b, c);
+  lines_from_setup(f, setup, reach, lines);
+  const BlockSetup stored = store_setup(setup, reach);
+  meet_from_origin(tile, run, stored, lines, some, touched);
+}
+
+// Meets what waits.
+template <bool any, class View>
+[[gnu::noinline]] static void meet_waiting(TileTraversal<any, View>& tile) noexcept {
+  TriangleRun& run = tile.waiting;
+  // Places that are left repeat a block, and count for nothing.
+  for (int k = run.count; k < TriangleRun::most_blocks; ++k) run.block[k] = run.block[0];
+  meet_run(tile, run);
+  run.count = 0;
+}
+
+// The triangles of a leaf, and the groups that reached it.
+template <bool any, class View>
+FASTRT_INLINE void add_triangles(TileTraversal<any, View>& tile, std::uint32_t leaf, std::uint32_t groups) {
+  TriangleRun& run = tile.waiting;
+  const TriangleBlock* block = tile.scene.triangles + leaf_first_block(leaf);
+  for (const TriangleBlock* const end = block + leaf_blocks(leaf); block != end; ++block) {
+    run.block[run.count] = block;
+    run.groups[run.count] = groups;
+    if (++run.count == TriangleRun::most_blocks) meet_waiting(tile);
+  }
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
