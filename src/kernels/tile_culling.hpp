@@ -121,9 +121,9 @@ FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, f
   return bits;
 }
 
-// With this many groups or fewer, each is held against all rectangles at once; else each rectangle against
-// all groups.
-inline constexpr int few_groups = 6;
+// What it takes, in instructions, to hold a group against all rectangles at once, and a rectangle against all
+// groups.
+inline constexpr int group_cost = 14, rectangle_cost = 8 + 12 * (batch_groups / widest);
 
 // The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
 // `lanes`; 0 elsewhere. Returns the lanes that touch any.
@@ -131,7 +131,7 @@ template <class F>
 FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles<F>& r, std::uint32_t lanes,
                                          std::uint32_t groups, std::uint32_t* touched) {
   constexpr int width = width_of<F>;
-  if (__builtin_popcount(groups) <= few_groups) {
+  if (__builtin_popcount(groups) * group_cost <= __builtin_popcount(lanes) * rectangle_cost) {
     IntsOf<F> bits(0);
     std::uint32_t some = 0;
     for (; groups != 0; groups &= groups - 1) {
