@@ -67,8 +67,10 @@ static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBat
   }
   if (count < least_pencil) return false;
   bound_groups(tile.points, errors, view);
-  for (int g = 0; g < batch_groups; g += 4) bound_depths(hits, tile.open, g, view.groups);
-  for (int g = 0; g < batch_groups; ++g) live.bits[g] &= ~tile.open[g];
+  for (int g = 0; g < batch_groups; ++g) {
+    view.groups.far[g] = group_far(hits, view.groups, tile.open[g], g);
+    live.bits[g] &= ~tile.open[g];
+  }
   aim_view(view);
   traverse(tile);
   count_tests(hits, tile.nodes, tile.tests);

@@ -54,12 +54,9 @@ FASTRT_INLINE void shorten_group(TileTraversal<any, View>& tile, int g, std::uin
 template <bool any, class View>
 FASTRT_INLINE void shorten_view(TileTraversal<any, View>& tile) {
   TileGroups& groups = tile.view.groups;
-  if constexpr (any) {
-    for (std::uint32_t left = tile.shortened; left != 0; left &= left - 1)
-      groups.far[__builtin_ctz(left)] = -__builtin_inff();
-  } else {
-    for (int g = 0; g < batch_groups; g += 4)
-      if ((tile.shortened >> g & 15U) != 0) bound_depths(tile.hits, tile.open, g, groups);
+  for (std::uint32_t left = tile.shortened; left != 0; left &= left - 1) {
+    const int g = __builtin_ctz(left);
+    groups.far[g] = any ? -__builtin_inff() : group_far(tile.hits, groups, tile.open[g], g);
   }
   tile.view.far = most_of(groups.far);
   tile.shortened = 0;

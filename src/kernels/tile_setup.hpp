@@ -196,27 +196,16 @@ FASTRT_INLINE Projection project_batch(const GeometryView& scene, const RayBatch
   return Projection::done;
 }
 
-// The farthest depths at which a hit of groups first .. first + 3 still matters. open: the rays that look for
-// one, as in LiveRays; groups without any look no more.
-FASTRT_INLINE void bound_depths(const HitBatch& hits, const std::uint32_t* open, int first,
-                                TileGroups& groups) {
-  using F = Floats<4>;
-  PacketF least[4]; // of the negated ways
-  std::uint32_t looking = 0;
-  for (int i = 0; i < 4; ++i) {
-    const int g = first + i;
-    least[i] = PacketF(0.0F);
-    for (int k = 0; k < group_size; k += widest) {
-      const PacketF t = PacketF::load_aligned(hits.t + g * group_size + k);
-      least[i] = min(least[i], select(from_bits<widest>(open[g] >> k & register_bits), negate(t), least[i]));
-    }
-    looking |= (open[g] != 0 ? 1U : 0U) << i;
+// The farthest depth at which a hit of group g still matters. open: its rays that look for one.
+FASTRT_INLINE float group_far(const HitBatch& hits, const TileGroups& groups, std::uint32_t open, int g) {
+  if (open == 0) return -__builtin_inff();
+  PacketF most(0.0F);
+  for (int k = 0; k < group_size; k += widest) {
+    const PacketF t = PacketF::load_aligned(hits.t + g * group_size + k);
+    most = max(most, select(from_bits<widest>(open >> k & register_bits), t, PacketF(0.0F)));
   }
-  const F begin = F::load_aligned(groups.depth_offset + first);
-  const F way = negate(min_of_rows(least[0], least[1], least[2], least[3])) *
-                F::load_aligned(groups.depth_scale + first);
-  const F far = (begin + way) + (abs(begin) + way) * F(depth_slack);
-  select(from_bits<4>(looking), far, F(-__builtin_inff())).store_aligned(groups.far + first);
+  const float begin = groups.depth_offset[g], way = reduce_max(most) * groups.depth_scale[g];
+  return (begin + way) + (magnitude(begin) + way) * depth_slack;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -101,7 +101,8 @@ static Projection trace_together(const GeometryView& scene, const RayBatch& rays
   if (projection == Projection::scattered && !split_groups(tile.points, tile.view.groups, live, others))
     return Projection::too_wide;
   if (projection != Projection::done) return projection;
-  for (int g = 0; g < batch_groups; g += 4) bound_depths(hits, tile.open, g, tile.view.groups);
+  for (int g = 0; g < batch_groups; ++g)
+    tile.view.groups.far[g] = group_far(hits, tile.view.groups, tile.open[g], g);
   aim_view(tile.view);
   traverse(tile);
   count_tests(hits, tile.nodes, tile.tests);

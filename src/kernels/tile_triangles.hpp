@@ -184,7 +184,8 @@ template <bool any, class View>
   run.count = 0;
 }
 
-// The triangles of a leaf, and the groups that reached it.
+// The triangles of a leaf, and the groups that reached it. (Leaves are about as large as narrow registers:
+// there nothing waits for the next leaf.)
 template <bool any, class View>
 FASTRT_INLINE void add_triangles(TileTraversal<any, View>& tile, std::uint32_t leaf, std::uint32_t groups) {
   TriangleRun& run = tile.waiting;
@@ -194,6 +195,7 @@ FASTRT_INLINE void add_triangles(TileTraversal<any, View>& tile, std::uint32_t l
     run.groups[run.count] = groups;
     if (++run.count == TriangleRun::most_blocks) meet_waiting(tile);
   }
+  if (TriangleRun::most_blocks <= 2 && run.count != 0) meet_waiting(tile);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
