@@ -46,8 +46,7 @@ function(fastrt_kernels isa)
   target_compile_definitions(${name} PRIVATE FASTRT_ISA_NAMESPACE=${isa} FASTRT_XSIMD_NAMESPACE=xsimd_${isa})
   # Sanitizers stay out: instrumented, one such object takes the compiler many minutes and over a gigabyte. The kernels
   # touch fixed arrays alone; `valgrind build/release/fastrt --isa avx2 ...` watches them.
-  # The lanes are written by hand: loops that the compiler makes lanes of itself are short, and longer for it.
-  target_compile_options(${name} PRIVATE -O3 -fno-tree-vectorize -fno-exceptions -fno-sanitize=all ${ARGN})
+  target_compile_options(${name} PRIVATE -O3 -fno-exceptions -fno-sanitize=all ${ARGN})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # gcc 12's own AVX-512 header warns.
     target_compile_options(${name} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized)

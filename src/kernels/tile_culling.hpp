@@ -121,9 +121,9 @@ FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, f
   return bits;
 }
 
-// What it takes, in instructions, to hold a group against all rectangles at once, and a rectangle against all
-// groups.
-inline constexpr int group_cost = 14, rectangle_cost = 8 + 12 * (batch_groups / widest);
+// About as many groups can be held against all rectangles at once in the time that `rectangle_cost /
+// group_cost` rectangles take to be held against all groups.
+inline constexpr int group_cost = 5, rectangle_cost = widest == batch_groups ? 7 : 10;
 
 // The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
 // `lanes`; 0 elsewhere. Returns the lanes that touch any.
