@@ -6,9 +6,9 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
-#include <deque>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace fastrt {
 namespace {
@@ -27,76 +27,36 @@ void set_box(WideNode& wide, int i, const BinaryNode& box) {
                                         std::max(box.upper[1] - box.lower[1], box.upper[2] - box.lower[2])));
 }
 
-// Nodes and blocks in depth-first order: a node, the blocks of its leaves, then child by child what lies
-// below.
-class WideList {
-public:
-  Column<WideNode> nodes;
-  std::array<Column<std::int32_t>, max_groups> slots;
-
-  std::uint32_t add_leaf(const BinaryTree& tree, std::uint32_t binary) {
-    // All that lies below the node is neighbours in the order.
-    std::uint32_t first = binary, last = binary;
-    while (tree.nodes[first].count == 0) first = tree.nodes[first].first;
-    while (tree.nodes[last].count == 0) last = tree.nodes[last].first + 1;
-    const std::uint32_t* ids = tree.order.data() + tree.nodes[first].first;
-    const std::size_t count = tree.nodes[last].first + tree.nodes[last].count - tree.nodes[first].first;
-    const std::uint32_t group = tree.group_of_leaf[first];
-    Column<std::int32_t>& blocks = slots[group];
-    const std::size_t first_block = blocks.size() / block_size;
-    const std::size_t block_count = (count + block_size - 1) / block_size;
-    for (std::size_t i = 0; i < block_count * block_size; ++i)
-      blocks.push_back(i < count ? static_cast<std::int32_t>(ids[i]) : -1);
-    return make_leaf(group, static_cast<std::uint32_t>(first_block), static_cast<std::uint32_t>(block_count));
-  }
-
-  // A node with its boxes and leaves; its inner children are still to come.
-  std::uint32_t add_node(const BinaryTree& tree, const CollapsePlan& plan, const std::uint32_t* children,
-                         int count) {
-    const std::size_t index = nodes.size();
-    if (index == reserved_) nodes.reserve(reserved_ = index + index / 2 + 16);
-    nodes.resize(index + 1);
-    WideNode& wide = nodes[index];
-    for (int i = 0; i < wide_children; ++i) {
-      wide.size[i] = 0;
-      wide.child[i] = no_child;
-      if (i < count) {
-        set_box(wide, i, tree.nodes[children[i]]);
-        if (plan.is_leaf(children[i])) wide.child[i] = add_leaf(tree, children[i]);
-      } else {
-        wide.lower_x[i] = wide.lower_y[i] = wide.lower_z[i] = infinity;
-        wide.upper_x[i] = wide.upper_y[i] = wide.upper_z[i] = -infinity;
-      }
-    }
-    return static_cast<std::uint32_t>(index);
-  }
-
-  std::uint32_t add_subtree(const BinaryTree& tree, const CollapsePlan& plan, std::uint32_t binary) {
-    std::uint32_t children[wide_children];
-    const int count = plan.children_of(binary, children);
-    const std::uint32_t index = add_node(tree, plan, children, count);
-    for (int i = 0; i < count; ++i) {
-      if (plan.is_leaf(children[i])) continue;
-      const std::uint32_t child = add_subtree(tree, plan, children[i]);
-      nodes[index].child[i] = child;
-    }
-    return index;
-  }
-
-private:
-  std::size_t reserved_ = 0;
+// How many nodes, and blocks of each group; or the first ones that are free.
+struct Extent {
+  std::size_t nodes = 0;
+  std::array<std::size_t, max_groups> blocks{};
 };
+
+// All primitives below a binary node, which are neighbours in the order.
+struct LeafPart {
+  std::uint32_t first, count, group;
+  std::uint32_t block_count() const { return (count + block_size - 1) / block_size; }
+};
+
+LeafPart leaf_part(const BinaryTree& tree, std::uint32_t node) {
+  std::uint32_t first = node, last = node;
+  while (tree.nodes[first].count == 0) first = tree.nodes[first].first;
+  while (tree.nodes[last].count == 0) last = tree.nodes[last].first + 1;
+  const std::uint32_t begin = tree.nodes[first].first;
+  return {begin, tree.nodes[last].first + tree.nodes[last].count - begin, tree.group_of_leaf[first]};
+}
 
 // A whole subtree on its own, or one node near the root; and where it goes in the whole.
 struct Part {
   std::uint32_t binary = 0;
   bool one_node = false;
-  std::size_t below[wide_children] = {}; // of one node: which parts its inner children are
-  WideList list;
-  std::size_t first_node = 0;
-  std::size_t first_block[max_groups] = {};
+  std::array<std::size_t, wide_children> below{}; // of one node: the parts of its inner children
+  Extent size, first;
 };
 
+// Nodes and blocks come to lie in depth-first order: a node, the blocks of its leaves, then child by child what
+// is below. Parts are counted first, so that each can be written to its place at once.
 class Collapser {
 public:
   Collapser(const BinaryTree& tree, const BuildSettings& settings)
@@ -106,93 +66,139 @@ public:
     const BinaryNode& root = tree_.nodes[0];
     wide_.bounds = {{root.lower[0], root.lower[1], root.lower[2]},
                     {root.upper[0], root.upper[1], root.upper[2]}};
+    Extent next;
     if (plan_.is_leaf(0)) {
-      WideList leaf;
-      wide_.root = leaf.add_leaf(tree_, 0);
-      wide_.slots = std::move(leaf.slots);
+      count_leaf(0, next);
+      make_room(next);
+      next = {};
+      wide_.root = put_leaf(0, next);
       return std::move(wide_);
     }
-    const std::size_t first_whole = cut();
-    TaskFailure failure;
-    run_tasks(threads_, failure, [&] {
-      for (std::size_t i = first_whole; i < parts_.size(); ++i)
-        spawn(failure, [this, part = &parts_[i]] { part->list.add_subtree(tree_, plan_, part->binary); });
-    });
-    wide_.root = place(0);
-    make_room();
-    run_tasks(threads_, failure, [&] {
-      for (const Part& part : parts_) spawn(failure, [this, from = &part] { copy(*from); });
-    });
+    cut();
+    for_each_part([this](Part& part) { count(part); });
+    place(0, next);
+    make_room(next);
+    wide_.root = 0;
+    for_each_part([this](Part& part) { put(part); });
     return std::move(wide_);
   }
 
 private:
-  // Expands nodes breadth first from the root until what lies below makes enough parts. Returns the number of
-  // the first part that is a whole subtree.
-  std::size_t cut() {
+  template <class F>
+  void for_each_part(const F& body) {
+    TaskFailure failure;
+    run_tasks(threads_, failure,
+              [&] { for_each_index(parts_.size(), [&](std::size_t i) { body(parts_[i]); }); });
+  }
+
+  // Expands nodes breadth first from the root until what lies below makes enough parts.
+  void cut() {
+    const std::size_t enough = threads_ == 1 ? 1 : enough_parts;
     parts_.emplace_back();
-    std::size_t next = 0;
-    for (; next < parts_.size() && parts_.size() - next < enough_parts; ++next) {
-      Part& part = parts_[next];
+    for (std::size_t next = 0; next < parts_.size() && parts_.size() - next < enough; ++next) {
       std::uint32_t children[wide_children];
-      const int count = plan_.children_of(part.binary, children);
-      part.one_node = true;
-      part.list.add_node(tree_, plan_, children, count);
+      const int count = plan_.children_of(parts_[next].binary, children);
+      parts_[next].one_node = true;
       for (int i = 0; i < count; ++i) {
         if (plan_.is_leaf(children[i])) continue;
-        part.below[i] = parts_.size();
+        parts_[next].below[static_cast<std::size_t>(i)] = parts_.size();
         parts_.emplace_back().binary = children[i];
       }
     }
-    return next;
   }
 
-  std::uint32_t place(std::size_t index) {
-    Part& part = parts_[index];
-    part.first_node = node_count_;
-    node_count_ += part.list.nodes.size();
-    for (std::size_t group = 0; group < max_groups; ++group) {
-      part.first_block[group] = block_counts_[group];
-      block_counts_[group] += part.list.slots[group].size() / block_size;
+  void count(Part& part) const { count_node(part.binary, !part.one_node, part.size); }
+
+  void count_node(std::uint32_t binary, bool below, Extent& size) const {
+    std::uint32_t children[wide_children];
+    const int count = plan_.children_of(binary, children);
+    ++size.nodes;
+    for (int i = 0; i < count; ++i) {
+      if (plan_.is_leaf(children[i]))
+        count_leaf(children[i], size);
+      else if (below)
+        count_node(children[i], below, size);
     }
-    for (int i = 0; part.one_node && i < wide_children; ++i)
-      if (part.below[i] != 0) part.list.nodes[0].child[i] = place(part.below[i]);
-    return static_cast<std::uint32_t>(part.first_node);
   }
 
-  void make_room() {
-    wide_.nodes.resize(node_count_);
+  void count_leaf(std::uint32_t binary, Extent& size) const {
+    const LeafPart leaf = leaf_part(tree_, binary);
+    size.blocks[leaf.group] += leaf.block_count();
+  }
+
+  void place(std::size_t index, Extent& next) {
+    Part& part = parts_[index];
+    part.first = next;
+    next.nodes += part.size.nodes;
+    for (std::size_t group = 0; group < max_groups; ++group) next.blocks[group] += part.size.blocks[group];
+    for (const std::size_t below : part.below)
+      if (below != 0) place(below, next);
+  }
+
+  void make_room(const Extent& size) {
+    wide_.nodes.resize(size.nodes);
     for (std::size_t group = 0; group < max_groups; ++group) {
-      if (block_counts_[group] > max_blocks)
+      if (size.blocks[group] > max_blocks)
         throw LimitError("too many primitives for one tree: more than " + std::to_string(max_blocks) +
                          " blocks");
-      wide_.slots[group].resize(block_counts_[group] * block_size);
+      wide_.slots[group].resize(size.blocks[group] * block_size);
     }
   }
 
-  void copy(const Part& part) {
-    for (std::size_t n = 0; n < part.list.nodes.size(); ++n) {
-      WideNode& node = wide_.nodes[part.first_node + n];
-      node = part.list.nodes[n];
-      for (std::uint32_t& child : node.child) {
-        if (child == no_child) continue;
-        if (is_leaf(child))
-          child += static_cast<std::uint32_t>(part.first_block[leaf_group(child)]);
-        else if (!part.one_node)
-          child += static_cast<std::uint32_t>(part.first_node);
+  void put(const Part& part) {
+    Extent next = part.first;
+    if (!part.one_node) {
+      put_subtree(part.binary, next);
+      return;
+    }
+    std::uint32_t children[wide_children];
+    const int count = plan_.children_of(part.binary, children);
+    WideNode& node = put_node(children, count, next);
+    for (std::size_t i = 0; i < part.below.size(); ++i)
+      if (part.below[i] != 0) node.child[i] = static_cast<std::uint32_t>(parts_[part.below[i]].first.nodes);
+  }
+
+  std::uint32_t put_subtree(std::uint32_t binary, Extent& next) {
+    std::uint32_t children[wide_children];
+    const int count = plan_.children_of(binary, children);
+    const auto index = static_cast<std::uint32_t>(next.nodes);
+    WideNode& node = put_node(children, count, next);
+    for (int i = 0; i < count; ++i)
+      if (!plan_.is_leaf(children[i])) node.child[i] = put_subtree(children[i], next);
+    return index;
+  }
+
+  // A node with its boxes and leaves; its inner children are still to come.
+  WideNode& put_node(const std::uint32_t* children, int count, Extent& next) {
+    WideNode& wide = wide_.nodes[next.nodes++];
+    for (int i = 0; i < wide_children; ++i) {
+      wide.size[i] = 0;
+      wide.child[i] = no_child;
+      if (i < count) {
+        set_box(wide, i, tree_.nodes[children[i]]);
+        if (plan_.is_leaf(children[i])) wide.child[i] = put_leaf(children[i], next);
+      } else {
+        wide.lower_x[i] = wide.lower_y[i] = wide.lower_z[i] = infinity;
+        wide.upper_x[i] = wide.upper_y[i] = wide.upper_z[i] = -infinity;
       }
     }
-    for (std::size_t group = 0; group < max_groups; ++group)
-      std::copy(part.list.slots[group].begin(), part.list.slots[group].end(),
-                wide_.slots[group].begin() + part.first_block[group] * block_size);
+    return wide;
+  }
+
+  std::uint32_t put_leaf(std::uint32_t binary, Extent& next) {
+    const LeafPart leaf = leaf_part(tree_, binary);
+    const std::size_t block = next.blocks[leaf.group];
+    std::int32_t* slots = wide_.slots[leaf.group].data() + block * block_size;
+    next.blocks[leaf.group] += leaf.block_count();
+    for (std::uint32_t i = 0; i < leaf.block_count() * block_size; ++i)
+      slots[i] = i < leaf.count ? static_cast<std::int32_t>(tree_.order[leaf.first + i]) : -1;
+    return make_leaf(leaf.group, static_cast<std::uint32_t>(block), leaf.block_count());
   }
 
   const BinaryTree& tree_;
   int threads_;
   CollapsePlan plan_;
-  std::deque<Part> parts_;
-  std::size_t node_count_ = 0;
-  std::size_t block_counts_[max_groups] = {};
+  std::vector<Part> parts_;
   WideTree wide_;
 };
 
