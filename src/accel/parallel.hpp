@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -33,12 +34,18 @@ private:
 };
 
 // Runs `body` and all the tasks that it spawns on so many threads (0: every core); throws the first
-// exception.
+// exception. Within another's body the tasks go to the threads that are there already: to end a team means to
+// wait until each of its threads has had its turn, which can take long where others want the cores too.
 template <class F>
 void run_tasks(int threads, TaskFailure& failure, F&& body) {
+  if (threads != 1 && omp_in_parallel() != 0) {
+#pragma omp taskgroup
+    failure.guard(body);
+  } else {
 #pragma omp parallel num_threads(threads > 0 ? threads : omp_get_max_threads())
 #pragma omp single
-  failure.guard(body);
+    failure.guard(body);
+  }
   failure.rethrow();
 }
 
@@ -57,6 +64,13 @@ void for_each_index(std::size_t count, const F& body) {
 #pragma omp task default(none) shared(body) firstprivate(i)
     body(i);
   }
+}
+
+// The same for pieces of so many neighbours: body(begin, end).
+template <class F>
+void for_each_piece(std::size_t count, std::size_t piece, const F& body) {
+  for_each_index((count + piece - 1) / piece,
+                 [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
 }
 
 } // namespace fastrt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/scene/threads.hpp"
+#include "src/accel/parallel.hpp"
 #include "src/trace/tracer_parts.hpp"
 
 #include <limits>
@@ -7,6 +7,7 @@
 namespace fastrt {
 namespace {
 
+constexpr std::size_t blocks_per_task = std::size_t{1} << 12U;
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
 void fill_row(const Scene& scene, std::int32_t id, int i, TriangleBlock& block) {
@@ -27,15 +28,13 @@ void fill_row(const Scene& scene, std::int32_t id, int i, TriangleBlock& block) 
 
 } // namespace
 
-Column<TriangleBlock> triangle_blocks(const Scene& scene, const Column<std::int32_t>& slots, int threads) {
+Column<TriangleBlock> triangle_blocks(const Scene& scene, const Column<std::int32_t>& slots) {
   Column<TriangleBlock> blocks(slots.size() / block_size);
-  const auto count = static_cast<std::int64_t>(blocks.size());
-#pragma omp parallel for schedule(static) num_threads(thread_count(threads)) if (count > 4096)
-  for (std::int64_t b = 0; b < count; ++b)
-    for (int i = 0; i < block_size; ++i) {
-      const auto at = static_cast<std::size_t>(b);
-      fill_row(scene, slots[at * block_size + static_cast<std::size_t>(i)], i, blocks[at]);
-    }
+  for_each_piece(blocks.size(), blocks_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (int i = 0; i < block_size; ++i)
+        fill_row(scene, slots[b * block_size + static_cast<std::size_t>(i)], i, blocks[b]);
+  });
   return blocks;
 }
 

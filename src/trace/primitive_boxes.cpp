@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/trace/primitive_boxes.hpp"
 
+#include "src/accel/parallel.hpp"
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/intersect.hpp"
-#include "src/scene/threads.hpp"
 #include "src/trace/scene_view.hpp"
 
 #include <emmintrin.h>
@@ -20,8 +20,7 @@ PrimitiveBox box_of(const Aabb& bounds, std::uint32_t id, std::uint32_t group) {
           group};
 }
 
-// Below this many triangles, starting threads takes longer.
-constexpr std::ptrdiff_t parallel_from = 1 << 14;
+constexpr std::size_t boxes_per_task = std::size_t{1} << 14U;
 
 // As Aabb::extend does, NaN and -0 included, in SSE2 registers.
 PrimitiveBox triangle_box(const SceneDesc& desc, std::size_t row) {
@@ -39,11 +38,11 @@ PrimitiveBox triangle_box(const SceneDesc& desc, std::size_t row) {
   return box;
 }
 
-PrimitiveBox* put_triangle_boxes(const Scene& scene, const RowRange& rows, int threads, PrimitiveBox* to) {
-  const std::ptrdiff_t count = rows.end - rows.begin;
-#pragma omp parallel for schedule(static) num_threads(thread_count(threads)) if (count >= parallel_from)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-    to[i] = triangle_box(scene.desc(), rows.begin + static_cast<std::size_t>(i));
+PrimitiveBox* put_triangle_boxes(const Scene& scene, const RowRange& rows, PrimitiveBox* to) {
+  const std::size_t count = rows.end - rows.begin;
+  for_each_piece(count, boxes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) to[i] = triangle_box(scene.desc(), rows.begin + i);
+  });
   return to + count;
 }
 
@@ -63,10 +62,9 @@ PrimitiveBox shape_box(const Scene& scene, PrimitiveKind kind, std::uint32_t row
 }
 
 // Writes the boxes of some rows of a kind; returns where the next go.
-PrimitiveBox* put_boxes(const Scene& scene, std::size_t kind, const RowRange& rows, int threads,
-                        PrimitiveBox* to) {
+PrimitiveBox* put_boxes(const Scene& scene, std::size_t kind, const RowRange& rows, PrimitiveBox* to) {
   const auto primitive = static_cast<PrimitiveKind>(kind);
-  if (primitive == PrimitiveKind::triangle) return put_triangle_boxes(scene, rows, threads, to);
+  if (primitive == PrimitiveKind::triangle) return put_triangle_boxes(scene, rows, to);
   for (std::uint32_t row = rows.begin; row < rows.end; ++row)
     *to++ = primitive == PrimitiveKind::sphere ? sphere_box(scene, row) : shape_box(scene, primitive, row);
   return to;
@@ -74,7 +72,7 @@ PrimitiveBox* put_boxes(const Scene& scene, std::size_t kind, const RowRange& ro
 
 } // namespace
 
-Column<PrimitiveBox> world_boxes(const Scene& scene, int threads) {
+Column<PrimitiveBox> world_boxes(const Scene& scene) {
   const KindRanges& world = scene.shapes().world;
   std::size_t count = 0;
   for (const auto& ranges : world)
@@ -82,7 +80,7 @@ Column<PrimitiveBox> world_boxes(const Scene& scene, int threads) {
   Column<PrimitiveBox> boxes(count);
   PrimitiveBox* to = boxes.data();
   for (std::size_t kind = 0; kind < world.size(); ++kind)
-    for (const RowRange& rows : world[kind]) to = put_boxes(scene, kind, rows, threads, to);
+    for (const RowRange& rows : world[kind]) to = put_boxes(scene, kind, rows, to);
   for (std::uint32_t i = 0; i < scene.instance_count(); ++i) {
     const Aabb& box = scene.shapes().instances[i].box;
     if (!box.empty()) boxes.push_back(box_of(box, scene.primitive_count() + i, shape_group));
@@ -90,14 +88,14 @@ Column<PrimitiveBox> world_boxes(const Scene& scene, int threads) {
   return boxes;
 }
 
-Column<PrimitiveBox> prototype_boxes(const Scene& scene, const Prototype& prototype, int threads) {
+Column<PrimitiveBox> prototype_boxes(const Scene& scene, const Prototype& prototype) {
   std::size_t count = 0;
   for (std::size_t kind = 0; kind < prototype.begin.size(); ++kind)
     count += prototype.end[kind] - prototype.begin[kind];
   Column<PrimitiveBox> boxes(count);
   PrimitiveBox* to = boxes.data();
   for (std::size_t kind = 0; kind < prototype.begin.size(); ++kind)
-    to = put_boxes(scene, kind, {prototype.begin[kind], prototype.end[kind]}, threads, to);
+    to = put_boxes(scene, kind, {prototype.begin[kind], prototype.end[kind]}, to);
   return boxes;
 }
 

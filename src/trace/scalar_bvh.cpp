@@ -75,9 +75,9 @@ ScalarBvh::Tree ScalarBvh::make_tree(Column<PrimitiveBox> boxes, int threads) {
 }
 
 ScalarBvh::ScalarBvh(const Scene& scene, int threads)
-    : scene_(&scene), world_(make_tree(world_boxes(scene, threads), threads)) {
+    : scene_(&scene), world_(make_tree(world_boxes(scene), threads)) {
   for (const Prototype& prototype : scene.desc().prototypes)
-    prototypes_.push_back(make_tree(prototype_boxes(scene, prototype, threads), threads));
+    prototypes_.push_back(make_tree(prototype_boxes(scene, prototype), threads));
 }
 
 template <bool any_will_do>

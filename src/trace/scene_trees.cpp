@@ -14,12 +14,9 @@
 namespace fastrt {
 namespace {
 
-// Smaller trees are built by one thread: starting more takes longer.
-constexpr std::size_t parallel_from = 4096;
-
 // The binary tree is let go as soon as the wide one has been made of it.
 WideTree build_tree(Column<PrimitiveBox> boxes, BuildSettings settings) {
-  if (boxes.size() < parallel_from) settings.threads = 1;
+  if (boxes.size() < parallel_build_from) settings.threads = 1;
   const BinaryTree binary = build_binary_tree(boxes, settings);
   return collapse(binary, settings);
 }
@@ -70,7 +67,7 @@ float largest_magnitude(const Aabb& box) {
 
 SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings) {
   SceneTrees trees;
-  trees.all = build_tree(world_boxes(scene, settings.threads), settings);
+  trees.all = build_tree(world_boxes(scene), settings);
   BvhStats& stats = trees.stats;
   stats.leaf_count = leaf_count(trees.all);
   stats.sah_cost = sah_cost(trees.all, settings.run_size);
@@ -78,7 +75,7 @@ SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings) 
   int depth = 0;
   std::vector<double> costs;
   for (const Prototype& prototype : scene.desc().prototypes) {
-    WideTree tree = build_tree(prototype_boxes(scene, prototype, settings.threads), settings);
+    WideTree tree = build_tree(prototype_boxes(scene, prototype), settings);
     depth = std::max(depth, tree_depth(tree));
     stats.leaf_count += leaf_count(tree);
     costs.push_back(sah_cost(tree, settings.run_size));

@@ -7,10 +7,14 @@
 #include <fastrt/scene.hpp>
 #include <fastrt/tracer.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace fastrt {
+
+// Trees of fewer primitives are built by one thread: waking more takes longer.
+inline constexpr std::size_t parallel_build_from = 4096;
 
 struct PrototypeTree {
   std::uint32_t root;       // among the nodes of all; no_child of an empty prototype

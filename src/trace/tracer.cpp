@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/accel/parallel.hpp"
+#include "src/scene/threads.hpp"
 #include "src/trace/point_media.hpp"
 
 #include <chrono>
@@ -127,15 +129,19 @@ void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
 // Trees -> blocks and rows.
 SceneTrees build(Tracer::Parts& parts, int threads, BvhQuality quality) {
   BuildSettings settings;
-  settings.threads = threads;
+  settings.threads = parts.scene.primitive_count() < parallel_build_from ? 1 : thread_count(threads);
   settings.quality = quality;
   settings.run_size = run_size_of(parts.isa);
-  SceneTrees trees = build_scene_trees(parts.scene, settings);
-  const auto& slots = trees.all.slots;
-  parts.triangle_blocks = triangle_blocks(parts.scene, slots[triangle_group], threads);
-  parts.sphere_blocks = sphere_blocks(parts.scene, slots[sphere_group]);
-  parts.shape_blocks = shape_blocks(parts.scene, slots[shape_group]);
-  parts.shapes = shape_rows(parts.scene, trees.prototypes);
+  SceneTrees trees;
+  TaskFailure failure;
+  run_tasks(settings.threads, failure, [&] {
+    trees = build_scene_trees(parts.scene, settings);
+    const auto& slots = trees.all.slots;
+    parts.triangle_blocks = triangle_blocks(parts.scene, slots[triangle_group]);
+    parts.sphere_blocks = sphere_blocks(parts.scene, slots[sphere_group]);
+    parts.shape_blocks = shape_blocks(parts.scene, slots[shape_group]);
+    parts.shapes = shape_rows(parts.scene, trees.prototypes);
+  });
   return trees;
 }
 

@@ -74,8 +74,8 @@ void add_bands(ShapeRows& rows); // of polygons with many edges
 ShapeView shape_view(const Scene& scene, const ShapeRows& rows);
 
 // The leaf blocks in the tree's order. slots: primitive ids, block_size a block, -1 where a block is not
-// full.
-Column<TriangleBlock> triangle_blocks(const Scene& scene, const Column<std::int32_t>& slots, int threads);
+// full. Within run_tasks all threads make those of triangles.
+Column<TriangleBlock> triangle_blocks(const Scene& scene, const Column<std::int32_t>& slots);
 Column<SphereBlock> sphere_blocks(const Scene& scene, const Column<std::int32_t>& slots);
 Column<ShapeBlock> shape_blocks(const Scene& scene, const Column<std::int32_t>& slots);
 
