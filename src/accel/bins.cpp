@@ -33,9 +33,7 @@ struct Sweep {
   }
   // An empty side has an infinite box and no runs: NaN, which is less than nothing.
   __m128 cost(__m128 scale, int run_log2) const {
-    const __m128 z = area_terms(boxes[2], scale);
-    const __m128 areas = sum_terms(area_terms(boxes[0], scale), area_terms(boxes[1], scale), z, z);
-    return _mm_mul_ps(areas, runs_of(counts, run_log2));
+    return _mm_mul_ps(half_areas(boxes, scale), runs_of(counts, run_log2));
   }
 };
 
@@ -49,27 +47,16 @@ BinSplit best_split(const Bins& bins, __m128 scale, int run_log2) {
     right_costs[i] = right.cost(scale, run_log2);
   }
   Sweep left;
-  __m128 best_costs = _mm_set1_ps(infinity);
-  __m128i best_positions = _mm_setzero_si128();
+  LeastCosts least;
   for (int i = 1; i < bin_count; ++i) {
     left.add(bins, i - 1);
-    const __m128 costs = _mm_add_ps(left.cost(scale, run_log2), right_costs[i]);
-    const __m128 better = _mm_cmplt_ps(costs, best_costs);
-    best_costs = select(better, costs, best_costs);
-    best_positions = select(_mm_castps_si128(better), _mm_set1_epi32(i), best_positions);
+    least.offer(_mm_add_ps(left.cost(scale, run_log2), right_costs[i]), i);
   }
-  alignas(16) float costs[4];
-  alignas(16) int positions[4];
-  _mm_store_ps(costs, best_costs);
-  _mm_store_si128(reinterpret_cast<__m128i*>(positions), best_positions);
   BinSplit best;
-  float best_cost = infinity;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(costs[axis] < best_cost)) continue;
-    best_cost = costs[axis];
-    best = {axis, positions[axis], 0};
-  }
-  for (int i = 0; best.axis >= 0 && i < bin_count; ++i) best.occupied += bins.counts[i][best.axis] != 0;
+  best.axis = least.axis();
+  if (best.axis < 0) return best;
+  best.position = least.place(best.axis);
+  for (int i = 0; i < bin_count; ++i) best.occupied += bins.counts[i][best.axis] != 0;
   return best;
 }
 

@@ -11,7 +11,7 @@ constexpr std::size_t max_leaf_size = std::size_t{block_size} * max_leaf_blocks;
 // Of visiting a binary node, in runs: longer ones have more room for what small nodes would tell apart.
 float node_cost(int run_log2) { return run_log2 > 2 ? 0.1F : 0.25F; }
 constexpr int index_bits = 5;
-static_assert(small_range <= 1U << index_bits && small_range % 4 == 0);
+static_assert(small_range <= 1U << index_bits && small_range % 8 == 0);
 
 struct SortedSplit {
   float cost = infinity;
@@ -19,188 +19,201 @@ struct SortedSplit {
   std::size_t left_count = 0;
 };
 
-// A few primitives, sorted along the three axes once; every split keeps the three lists sorted.
+// Their indices along each axis, in order.
+struct Lists {
+  std::uint8_t sorted[3][small_range];
+};
+
+// A few primitives, sorted along the three axes once; every split keeps the three lists sorted. Loops are few
+// and without branches: so short ones end where no processor expects it.
 class SmallRange {
 public:
   SmallRange(const BuildContext& context, const BuildRange& range, NodeList& list)
       : context_(context), list_(list), begin_(range.begin) {
     const PrimitiveBox* boxes = context.buffers[range.buffer] + range.begin;
     for (std::size_t i = 0; i < range.size(); ++i) {
-      boxes_[i] = load(boxes[i]);
+      const LaneBox box = load(boxes[i]);
+      lower_[i] = box.lower;
+      upper_[i] = box.upper;
       ids_[i] = boxes[i].id;
       groups_[i] = static_cast<std::uint8_t>(boxes[i].group);
     }
     sort(range.size(), range.centroids);
   }
 
-  GroupedNode build(std::size_t begin, std::size_t end, const LaneBox& bounds, int level) {
+  // Of the primitives begin .. end - 1 of one of the two sets of lists.
+  GroupedNode build(std::size_t begin, std::size_t end, const LaneBox& bounds, int level, Lists& lists) {
     const std::size_t count = end - begin;
-    const bool homogeneous = context_.one_group || is_homogeneous(begin, end);
-    if (homogeneous && count <= block_size) return make_leaf_node(begin, end, bounds);
+    const bool homogeneous = context_.one_group || is_homogeneous(begin, end, lists);
+    if (homogeneous && count <= block_size) return make_leaf_node(begin, end, bounds, lists);
     SortedSplit split;
     if (!must_halve(level, count)) {
-      if (homogeneous || count > block_size) split = best_split(begin, end);
+      if (homogeneous || count > block_size) split = best_split(begin, end, lists);
       const float area = half_area(bounds, context_.scale);
       const bool pays = count > max_leaf_size || node_cost(context_.run_log2) * area + split.cost <
                                                      runs_of(count, context_.run_log2) * area;
-      if (!pays && homogeneous) return make_leaf_node(begin, end, bounds);
+      if (!pays && homogeneous) return make_leaf_node(begin, end, bounds, lists);
       if (!homogeneous && (!pays || split.axis < 0))
-        return make_inner_node(begin, divide_by_group(begin, end), end, bounds, level);
+        return make_inner_node(begin, end, divide_by_group(begin, end, lists), bounds, level, lists);
     }
     if (split.axis < 0) split = {0, 0, count / 2};
-    const std::size_t middle = divide(begin, end, split);
-    return make_inner_node(begin, middle, end, bounds, level);
+    std::uint32_t right = 0;
+    for (std::size_t i = begin + split.left_count; i < end; ++i) right |= 1U << lists.sorted[split.axis][i];
+    return make_inner_node(begin, end, {right, split.left_count}, bounds, level, lists);
+  }
+
+  GroupedNode build(const BuildRange& range) {
+    return build(0, range.size(), range.bounds, range.level, lists_[0]);
   }
 
 private:
-  // Sorts by counting how many come before: no branches. The centroid's place in the range and the index
+  // Where each primitive belongs is how many come before it. The centroid's place in the range and the index
   // share one integer, so that no two are equal.
   void sort(std::size_t count, const LaneBox& centroids) {
     alignas(16) std::int32_t keys[3][small_range];
+    make_keys(count, centroids, keys);
+    for (int axis = 0; axis < 3; ++axis) {
+      __m128i others[small_range];
+      for (std::size_t i = 0; i < count; ++i) others[i] = _mm_set1_epi32(keys[axis][i]);
+      for (std::size_t i = 0; i < count; i += 8) {
+        const auto* eight = reinterpret_cast<const __m128i*>(keys[axis] + i);
+        const __m128i low = _mm_load_si128(eight), high = _mm_load_si128(eight + 1);
+        __m128i low_before = _mm_setzero_si128(), high_before = _mm_setzero_si128();
+        for (std::size_t j = 0; j < count; ++j) {
+          low_before = _mm_sub_epi32(low_before, _mm_cmpgt_epi32(low, others[j]));
+          high_before = _mm_sub_epi32(high_before, _mm_cmpgt_epi32(high, others[j]));
+        }
+        alignas(16) std::uint32_t before[8];
+        _mm_store_si128(reinterpret_cast<__m128i*>(before), low_before);
+        _mm_store_si128(reinterpret_cast<__m128i*>(before + 4), high_before);
+        // What only fills the eight up comes after all others, where nothing is read.
+        for (std::size_t j = 0; j < 8; ++j)
+          lists_[0].sorted[axis][before[j]] = static_cast<std::uint8_t>(i + j);
+      }
+    }
+  }
+
+  // Eight keys at least, and a multiple of eight; those too many are larger than all others.
+  void make_keys(std::size_t count, const LaneBox& centroids, std::int32_t (&keys)[3][small_range]) const {
     const __m128 extent = _mm_sub_ps(centroids.upper, centroids.lower);
     const __m128 wide = _mm_cmpge_ps(extent, _mm_set1_ps(std::numeric_limits<float>::min()));
     const __m128 steps = _mm_and_ps(wide, _mm_div_ps(_mm_set1_ps(0x1p24F), extent));
-    for (std::size_t i = 0; i < small_range; ++i) {
-      __m128i key = _mm_set1_epi32(std::numeric_limits<std::int32_t>::max());
-      if (i < count) {
-        const __m128 place = _mm_mul_ps(_mm_sub_ps(doubled_centroid(boxes_[i]), centroids.lower), steps);
-        key = _mm_add_epi32(_mm_slli_epi32(_mm_cvttps_epi32(place), index_bits),
-                            _mm_set1_epi32(static_cast<int>(i)));
-      }
+    for (std::size_t i = 0; i < count; i += 8)
+      for (auto& column : keys)
+        for (std::size_t j = 0; j < 8; j += 4)
+          _mm_store_si128(reinterpret_cast<__m128i*>(column + i + j),
+                          _mm_set1_epi32(std::numeric_limits<std::int32_t>::max()));
+    for (std::size_t i = 0; i < count; ++i) {
+      const __m128 centroid = doubled_centroid({lower_[i], upper_[i]});
+      const __m128i place = _mm_cvttps_epi32(_mm_mul_ps(_mm_sub_ps(centroid, centroids.lower), steps));
       alignas(16) std::int32_t xyz[4];
-      _mm_store_si128(reinterpret_cast<__m128i*>(xyz), key);
+      _mm_store_si128(reinterpret_cast<__m128i*>(xyz),
+                      _mm_add_epi32(_mm_slli_epi32(place, index_bits), _mm_set1_epi32(static_cast<int>(i))));
       for (int axis = 0; axis < 3; ++axis) keys[axis][i] = xyz[axis];
     }
-    for (int axis = 0; axis < 3; ++axis)
-      for (std::size_t i = 0; i < count; ++i)
-        sorted_[axis][rank(keys[axis], count, i)] = static_cast<std::uint8_t>(i);
   }
 
-  static std::size_t rank(const std::int32_t* keys, std::size_t count, std::size_t i) {
-    const __m128i key = _mm_set1_epi32(keys[i]);
-    __m128i before = _mm_setzero_si128();
-    for (std::size_t j = 0; j < count; j += 4)
-      before = _mm_sub_epi32(
-          before, _mm_cmpgt_epi32(key, _mm_load_si128(reinterpret_cast<const __m128i*>(keys + j))));
-    before = _mm_add_epi32(before, _mm_shuffle_epi32(before, _MM_SHUFFLE(1, 0, 3, 2)));
-    before = _mm_add_epi32(before, _mm_shuffle_epi32(before, _MM_SHUFFLE(2, 3, 0, 1)));
-    return static_cast<std::size_t>(_mm_cvtsi128_si32(before));
-  }
-
-  bool is_homogeneous(std::size_t begin, std::size_t end) const {
-    const std::uint8_t* list = sorted_[0];
+  bool is_homogeneous(std::size_t begin, std::size_t end, const Lists& lists) const {
+    const std::uint8_t* list = lists.sorted[0];
     return std::all_of(list + begin, list + end,
                        [&](std::uint8_t i) { return groups_[i] == groups_[list[begin]]; });
   }
 
-  SortedSplit best_split(std::size_t begin, std::size_t end) const {
-    SortedSplit best;
-    for (int axis = 0; axis < 3; ++axis) find_split(axis, begin, end - begin, best);
-    return best;
-  }
-
-  // Tries every plane between two primitives of the axis' list, four at a time.
-  void find_split(int axis, std::size_t begin, std::size_t count, SortedSplit& best) const {
-    const int run_log2 = context_.run_log2;
-    const std::uint8_t* list = sorted_[axis] + begin;
-    __m128 left_terms[small_range + 4], right_terms[small_range + 4];
-    LaneBox left, right;
+  // Tries every plane between two primitives of each axis' list, all axes side by side.
+  SortedSplit best_split(std::size_t begin, std::size_t end, const Lists& lists) const {
+    const std::size_t count = end - begin;
+    const std::uint8_t* const sorted[3] = {lists.sorted[0] + begin, lists.sorted[1] + begin,
+                                           lists.sorted[2] + begin};
+    __m128 right_costs[small_range];
+    LaneBox right[3], left[3];
+    __m128i right_count = _mm_setzero_si128(), left_count = right_count;
+    for (std::size_t i = count - 1; i > 0; --i) {
+      for (int axis = 0; axis < 3; ++axis) right[axis].extend(box(sorted[axis][i]));
+      right_count = _mm_add_epi32(right_count, _mm_set1_epi32(1));
+      right_costs[i] = _mm_mul_ps(half_areas(right, context_.scale), runs_of(right_count, context_.run_log2));
+    }
+    LeastCosts least;
     for (std::size_t i = 1; i < count; ++i) {
-      left.extend(boxes_[list[i - 1]]);
-      left_terms[i] = area_terms(left, context_.scale);
-      right.extend(boxes_[list[count - i]]);
-      right_terms[count - i] = area_terms(right, context_.scale);
+      for (int axis = 0; axis < 3; ++axis) left[axis].extend(box(sorted[axis][i - 1]));
+      left_count = _mm_add_epi32(left_count, _mm_set1_epi32(1));
+      const __m128 left_costs =
+          _mm_mul_ps(half_areas(left, context_.scale), runs_of(left_count, context_.run_log2));
+      least.offer(_mm_add_ps(left_costs, right_costs[i]), static_cast<int>(i));
     }
-    for (std::size_t i = count; i < count + 4; ++i) left_terms[i] = right_terms[i] = _mm_set1_ps(infinity);
-    const __m128i counts = _mm_set1_epi32(static_cast<int>(count));
-    __m128i left_counts = _mm_set_epi32(4, 3, 2, 1);
-    __m128 best_costs = _mm_set1_ps(infinity);
-    __m128i best_counts = _mm_setzero_si128();
-    for (std::size_t i = 1; i < count; i += 4) {
-      const __m128 left_areas =
-          sum_terms(left_terms[i], left_terms[i + 1], left_terms[i + 2], left_terms[i + 3]);
-      const __m128 right_areas =
-          sum_terms(right_terms[i], right_terms[i + 1], right_terms[i + 2], right_terms[i + 3]);
-      const __m128 costs =
-          _mm_add_ps(_mm_mul_ps(left_areas, runs_of(left_counts, run_log2)),
-                     _mm_mul_ps(right_areas, runs_of(_mm_sub_epi32(counts, left_counts), run_log2)));
-      const __m128 better = _mm_cmplt_ps(costs, best_costs);
-      best_costs = select(better, costs, best_costs);
-      best_counts = select(_mm_castps_si128(better), left_counts, best_counts);
-      left_counts = _mm_add_epi32(left_counts, _mm_set1_epi32(4));
-    }
-    alignas(16) float cost[4];
-    alignas(16) std::int32_t left_count[4];
-    _mm_store_ps(cost, best_costs);
-    _mm_store_si128(reinterpret_cast<__m128i*>(left_count), best_counts);
-    for (int i = 0; i < 4; ++i)
-      if (cost[i] < best.cost) best = {cost[i], axis, static_cast<std::size_t>(left_count[i])};
+    const int axis = least.axis();
+    if (axis < 0) return {};
+    return {least.cost(axis), axis, static_cast<std::size_t>(least.place(axis))};
   }
 
-  std::size_t divide(std::size_t begin, std::size_t end, const SortedSplit& split) {
-    const std::uint8_t* list = sorted_[split.axis] + begin;
-    for (std::size_t i = 0; i < end - begin; ++i) is_right_[list[i]] = i >= split.left_count;
-    for (int axis = 0; axis < 3; ++axis)
-      if (axis != split.axis) divide_list(axis, begin, end);
-    return begin + split.left_count;
-  }
+  // Which primitives go to the right, a bit for each, and how many go to the left.
+  struct Sides {
+    std::uint32_t right;
+    std::size_t left_count;
+  };
 
-  std::size_t divide_by_group(std::size_t begin, std::size_t end) {
-    const std::uint8_t group = groups_[sorted_[0][begin]];
-    for (std::size_t i = begin; i < end; ++i) is_right_[sorted_[0][i]] = groups_[sorted_[0][i]] != group;
-    std::size_t middle = begin;
-    for (int axis = 0; axis < 3; ++axis) middle = divide_list(axis, begin, end);
-    return middle;
-  }
-
-  std::size_t divide_list(int axis, std::size_t begin, std::size_t end) {
-    std::uint8_t right[small_range];
-    std::uint8_t* list = sorted_[axis];
-    std::size_t middle = begin, right_count = 0;
+  Sides divide_by_group(std::size_t begin, std::size_t end, const Lists& lists) const {
+    const std::uint8_t* list = lists.sorted[0];
+    Sides sides{0, 0};
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint8_t index = list[i];
-      list[middle] = index;
-      right[right_count] = index;
-      middle += !is_right_[index];
-      right_count += is_right_[index];
+      const bool differs = groups_[list[i]] != groups_[list[begin]];
+      sides.right |= static_cast<std::uint32_t>(differs) << list[i];
+      sides.left_count += differs ? 0 : 1;
     }
-    std::copy(right, right + right_count, list + middle);
-    return middle;
+    return sides;
   }
 
-  GroupedNode make_leaf_node(std::size_t begin, std::size_t end, const LaneBox& bounds) const {
-    for (std::size_t i = begin; i < end; ++i) context_.order[begin_ + i] = ids_[sorted_[0][i]];
-    return make_node(bounds, begin_ + begin, end - begin, groups_[sorted_[0][begin]]);
+  static void divide(std::size_t begin, std::size_t end, const Sides& sides, const Lists& from, Lists& to) {
+    std::size_t left[3] = {begin, begin, begin};
+    const std::size_t to_right = sides.left_count + begin;
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::uint8_t index = from.sorted[axis][i];
+        const std::size_t is_right = sides.right >> index & 1U;
+        const std::size_t right = to_right + (i - left[axis]);
+        to.sorted[axis][is_right != 0 ? right : left[axis]] = index;
+        left[axis] += is_right ^ 1U;
+      }
   }
 
-  GroupedNode make_inner_node(std::size_t begin, std::size_t middle, std::size_t end, const LaneBox& bounds,
-                              int level) {
+  GroupedNode make_leaf_node(std::size_t begin, std::size_t end, const LaneBox& bounds,
+                             const Lists& lists) const {
+    const std::uint8_t* list = lists.sorted[0];
+    for (std::size_t i = begin; i < end; ++i) context_.order[begin_ + i] = ids_[list[i]];
+    return make_node(bounds, begin_ + begin, end - begin, groups_[list[begin]]);
+  }
+
+  GroupedNode make_inner_node(std::size_t begin, std::size_t end, const Sides& sides, const LaneBox& bounds,
+                              int level, Lists& lists) {
+    Lists& below = &lists == lists_ ? lists_[1] : lists_[0];
+    divide(begin, end, sides, lists, below);
+    const std::size_t middle = begin + sides.left_count;
     const std::uint32_t first = list_.add_pair();
-    put_node(list_, first, build(begin, middle, bounds_of(begin, middle), level + 1));
-    put_node(list_, first + 1, build(middle, end, bounds_of(middle, end), level + 1));
+    put_node(list_, first, build(begin, middle, bounds_of(begin, middle, below), level + 1, below));
+    put_node(list_, first + 1, build(middle, end, bounds_of(middle, end, below), level + 1, below));
     return make_node(bounds, first, 0, 0);
   }
 
-  LaneBox bounds_of(std::size_t begin, std::size_t end) const {
+  LaneBox box(std::size_t i) const { return {lower_[i], upper_[i]}; }
+
+  LaneBox bounds_of(std::size_t begin, std::size_t end, const Lists& lists) const {
     LaneBox bounds;
-    for (std::size_t i = begin; i < end; ++i) bounds.extend(boxes_[sorted_[0][i]]);
+    for (std::size_t i = begin; i < end; ++i) bounds.extend(box(lists.sorted[0][i]));
     return bounds;
   }
 
   const BuildContext& context_;
   NodeList& list_;
   std::size_t begin_;
-  LaneBox boxes_[small_range];
+  __m128 lower_[small_range], upper_[small_range];
   std::uint32_t ids_[small_range];
   std::uint8_t groups_[small_range];
-  std::uint8_t is_right_[small_range];
-  std::uint8_t sorted_[3][small_range];
+  Lists lists_[2]; // of even and of odd levels
 };
 
 } // namespace
 
 GroupedNode build_small_range(const BuildContext& context, const BuildRange& range, NodeList& list) {
-  return SmallRange(context, range, list).build(0, range.size(), range.bounds, range.level);
+  return SmallRange(context, range, list).build(range);
 }
 
 } // namespace fastrt
