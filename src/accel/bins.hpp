@@ -10,6 +10,10 @@ namespace fastrt {
 
 inline constexpr int bin_count = 16;
 
+inline __m128i clamp_bins(__m128i bins) {
+  return _mm_max_epi16(_mm_min_epi16(bins, _mm_set1_epi32(bin_count - 1)), _mm_setzero_si128());
+}
+
 // Which bin a centroid falls into, on all three axes at once.
 struct BinMapping {
   __m128 base = _mm_setzero_ps();
@@ -24,10 +28,7 @@ struct BinMapping {
     return _mm_cvttps_epi32(_mm_mul_ps(_mm_sub_ps(centroid, base), scale));
   }
   // Three bin numbers, in range whatever the centroid is.
-  __m128i operator()(__m128 centroid) const {
-    return _mm_max_epi16(_mm_min_epi16(unclamped(centroid), _mm_set1_epi32(bin_count - 1)),
-                         _mm_setzero_si128());
-  }
+  __m128i operator()(__m128 centroid) const { return clamp_bins(unclamped(centroid)); }
 };
 
 // What fell into the bins of each axis.
@@ -62,12 +63,6 @@ struct BinSplit {
 
 // The plane with the least area * runs on both sides; none if no plane has something on either side.
 BinSplit best_split(const Bins& bins, __m128 scale, int run_log2);
-
-// `bins` may be unclamped: the ends stay on their sides.
-inline bool is_right(__m128i bins, const BinSplit& split) {
-  const __m128i right = _mm_cmpgt_epi32(bins, _mm_set1_epi32(split.position - 1));
-  return (static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(right))) >> split.axis & 1U) != 0;
-}
 
 LaneBox left_bounds(const Bins& bins, const BinSplit& split);
 LaneBox right_bounds(const Bins& bins, const BinSplit& split);

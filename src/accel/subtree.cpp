@@ -32,24 +32,39 @@ GroupedNode build_halves(const BuildContext& context, const BuildRange& range, N
   return make_node(range.bounds, first, 0, 0);
 }
 
-// Moves primitives to their sides, and into bins only if these are asked for.
+// Moves primitives to their sides, and into bins only if these are asked for. What a primitive's bins wait
+// for is kept short, or they are late for the next primitives': the axis is looked at by itself, in all
+// lanes, and both sides' mappings are at hand before it is known which counts.
 template <bool into_bins>
 void move(const BuildContext& context, const BuildRange& range, std::size_t begin, std::size_t end,
           const BinSplit& split, const SplitSides& sides, Bins* const bins[2]) {
   const PrimitiveBox* from = context.buffers[range.buffer];
   PrimitiveBox* to = context.buffers[1 - range.buffer];
   const BinMapping mapping(range.centroids);
-  const BinSplit plane = split; // a copy: no store can change it
-  std::size_t next[2] = {sides.next[0], sides.next[1]};
+  const int axis = split.axis;
+  const __m128 base = _mm_set1_ps(lane_of(mapping.base, axis));
+  const __m128 scale = _mm_set1_ps(lane_of(mapping.scale, axis));
+  const __m128 plane = _mm_set1_ps(static_cast<float>(split.position));
+  const BinMapping left_mapping = sides.mappings[0], right_mapping = sides.mappings[1];
+  PrimitiveBox *next_left = to + sides.next[0], *next_right = to + sides.next[1];
   for (std::size_t i = begin; i < end; ++i) {
     const __m128 lower_and_id = _mm_load_ps(from[i].lower), upper_and_group = _mm_load_ps(from[i].upper);
-    const LaneBox box = clear_fourth({lower_and_id, upper_and_group});
-    const __m128 centroid = doubled_centroid(box);
-    const std::size_t side = is_right(mapping.unclamped(centroid), plane);
-    PrimitiveBox& moved = to[next[side]++];
+    const __m128 place =
+        _mm_mul_ps(_mm_sub_ps(_mm_set1_ps(from[i].lower[axis] + from[i].upper[axis]), base), scale);
+    const __m128 is_right = _mm_cmpge_ps(place, plane);
+    const std::size_t side = static_cast<std::size_t>(_mm_movemask_ps(is_right)) & 1U;
+    PrimitiveBox& moved = *(side != 0 ? next_right : next_left);
+    next_left += 1 - side;
+    next_right += side;
     _mm_store_ps(moved.lower, lower_and_id);
     _mm_store_ps(moved.upper, upper_and_group);
-    if constexpr (into_bins) bins[side]->add(box, sides.mappings[side](centroid));
+    if constexpr (into_bins) {
+      const LaneBox box = clear_fourth({lower_and_id, upper_and_group});
+      const __m128 centroid = doubled_centroid(box);
+      const __m128i bin = select(_mm_castps_si128(is_right), right_mapping.unclamped(centroid),
+                                 left_mapping.unclamped(centroid));
+      (side != 0 ? bins[1] : bins[0])->add(box, clamp_bins(bin));
+    }
   }
 }
 
