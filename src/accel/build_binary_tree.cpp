@@ -14,7 +14,7 @@
 namespace fastrt {
 namespace {
 
-constexpr std::size_t serial_range = std::size_t{1} << 14U; // ranges up to this size are one task
+constexpr std::size_t serial_range = std::size_t{1} << 12U; // ranges up to this size are one task
 constexpr std::size_t min_chunk = std::size_t{1} << 12U;
 constexpr std::size_t max_chunks = 64;
 

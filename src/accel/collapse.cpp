@@ -13,9 +13,6 @@
 namespace fastrt {
 namespace {
 
-// So many parts are collapsed at the same time, at most. The number of threads has no say in it.
-constexpr std::size_t enough_parts = 128;
-
 void set_box(WideNode& wide, int i, const BinaryNode& box) {
   wide.lower_x[i] = box.lower[0];
   wide.upper_x[i] = box.upper[0];
@@ -55,8 +52,8 @@ struct Part {
   Extent size, first;
 };
 
-// Nodes and blocks come to lie in depth-first order: a node, the blocks of its leaves, then child by child what
-// is below. Parts are counted first, so that each can be written to its place at once.
+// Nodes and blocks come to lie in depth-first order: a node, the blocks of its leaves, then child by child
+// what is below. Parts are counted first, so that each can be written to its place at once.
 class Collapser {
 public:
   Collapser(const BinaryTree& tree, const BuildSettings& settings)
@@ -93,7 +90,7 @@ private:
 
   // Expands nodes breadth first from the root until what lies below makes enough parts.
   void cut() {
-    const std::size_t enough = threads_ == 1 ? 1 : enough_parts;
+    const std::size_t enough = tasks_for(tree_.nodes.size(), threads_);
     parts_.emplace_back();
     for (std::size_t next = 0; next < parts_.size() && parts_.size() - next < enough; ++next) {
       std::uint32_t children[wide_children];

@@ -9,7 +9,6 @@
 namespace fastrt {
 namespace {
 
-constexpr std::size_t enough_subtrees = 256; // solved at the same time; threads have no say in it
 constexpr std::uint32_t mixed = max_groups;
 
 double half_area(const BinaryNode& node) {
@@ -38,7 +37,8 @@ CollapsePlan::CollapsePlan(const BinaryTree& tree, const BuildSettings& settings
   std::vector<std::uint32_t> nodes{0};
   std::size_t top_count = 0, inner_count = 1;
   std::vector<std::size_t> left_of;
-  while (top_count < nodes.size() && inner_count < enough_subtrees) {
+  const std::size_t enough = tasks_for(tree.nodes.size(), settings.threads);
+  while (top_count < nodes.size() && inner_count < enough) {
     const BinaryNode& node = tree.nodes[nodes[top_count++]];
     left_of.push_back(nodes.size());
     if (node.count != 0) continue;

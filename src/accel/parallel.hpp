@@ -73,4 +73,10 @@ void for_each_piece(std::size_t count, std::size_t piece, const F& body) {
                  [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
 }
 
+// Into how many tasks to cut what is done to so many nodes: each is worth the trouble, and there are no more
+// than it takes to keep threads busy. One thread needs one.
+inline std::size_t tasks_for(std::size_t nodes, int threads) {
+  return threads == 1 ? 1 : std::clamp<std::size_t>(nodes / 256, 1, 256);
+}
+
 } // namespace fastrt
