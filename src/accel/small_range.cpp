@@ -45,18 +45,20 @@ public:
   GroupedNode build(std::size_t begin, std::size_t end, const LaneBox& bounds, int level, Lists& lists) {
     const std::size_t count = end - begin;
     const bool homogeneous = context_.one_group || is_homogeneous(begin, end, lists);
-    if (homogeneous && count <= block_size) return make_leaf_node(begin, end, bounds, lists);
+    if (homogeneous && count <= block_size) return make_leaf_node(begin, end, bounds, lists.sorted[0]);
     SortedSplit split;
     if (!must_halve(level, count)) {
       if (homogeneous || count > block_size) split = best_split(begin, end, lists);
       const float area = half_area(bounds, context_.scale);
       const bool pays = count > max_leaf_size || node_cost(context_.run_log2) * area + split.cost <
                                                      runs_of(count, context_.run_log2) * area;
-      if (!pays && homogeneous) return make_leaf_node(begin, end, bounds, lists);
+      if (!pays && homogeneous) return make_leaf_node(begin, end, bounds, lists.sorted[0]);
       if (!homogeneous && (!pays || split.axis < 0))
         return make_inner_node(begin, end, divide_by_group(begin, end, lists), bounds, level, lists);
     }
     if (split.axis < 0) split = {0, 0, count / 2};
+    if (homogeneous && std::max(split.left_count, count - split.left_count) <= block_size)
+      return make_two_leaves(begin, end, begin + split.left_count, bounds, lists.sorted[split.axis]);
     std::uint32_t right = 0;
     for (std::size_t i = begin + split.left_count; i < end; ++i) right |= 1U << lists.sorted[split.axis][i];
     return make_inner_node(begin, end, {right, split.left_count}, bounds, level, lists);
@@ -67,25 +69,22 @@ public:
   }
 
 private:
-  // Where each primitive belongs is how many come before it. The centroid's place in the range and the index
-  // share one integer, so that no two are equal.
+  using Keys = std::int16_t[3][small_range];
+
+  // Where each primitive belongs is how many come before it, found for eight at a time.
   void sort(std::size_t count, const LaneBox& centroids) {
-    alignas(16) std::int32_t keys[3][small_range];
+    alignas(16) Keys keys;
     make_keys(count, centroids, keys);
     for (int axis = 0; axis < 3; ++axis) {
       __m128i others[small_range];
-      for (std::size_t i = 0; i < count; ++i) others[i] = _mm_set1_epi32(keys[axis][i]);
+      for (std::size_t i = 0; i < count; ++i) others[i] = _mm_set1_epi16(keys[axis][i]);
       for (std::size_t i = 0; i < count; i += 8) {
-        const auto* eight = reinterpret_cast<const __m128i*>(keys[axis] + i);
-        const __m128i low = _mm_load_si128(eight), high = _mm_load_si128(eight + 1);
-        __m128i low_before = _mm_setzero_si128(), high_before = _mm_setzero_si128();
-        for (std::size_t j = 0; j < count; ++j) {
-          low_before = _mm_sub_epi32(low_before, _mm_cmpgt_epi32(low, others[j]));
-          high_before = _mm_sub_epi32(high_before, _mm_cmpgt_epi32(high, others[j]));
-        }
-        alignas(16) std::uint32_t before[8];
-        _mm_store_si128(reinterpret_cast<__m128i*>(before), low_before);
-        _mm_store_si128(reinterpret_cast<__m128i*>(before + 4), high_before);
+        const __m128i eight = _mm_load_si128(reinterpret_cast<const __m128i*>(keys[axis] + i));
+        __m128i smaller = _mm_setzero_si128();
+        for (std::size_t j = 0; j < count; ++j)
+          smaller = _mm_sub_epi16(smaller, _mm_cmpgt_epi16(eight, others[j]));
+        alignas(16) std::uint16_t before[8];
+        _mm_store_si128(reinterpret_cast<__m128i*>(before), smaller);
         // What only fills the eight up comes after all others, where nothing is read.
         for (std::size_t j = 0; j < 8; ++j)
           lists_[0].sorted[axis][before[j]] = static_cast<std::uint8_t>(i + j);
@@ -93,23 +92,27 @@ private:
     }
   }
 
-  // Eight keys at least, and a multiple of eight; those too many are larger than all others.
-  void make_keys(std::size_t count, const LaneBox& centroids, std::int32_t (&keys)[3][small_range]) const {
+  // The centroid's place in the range and the index share one integer, so that no two are equal. There is a
+  // multiple of eight; those too many are the largest.
+  void make_keys(std::size_t count, const LaneBox& centroids, Keys& keys) const {
+    constexpr int places = 1 << (16 - index_bits), smallest = std::numeric_limits<std::int16_t>::min();
     const __m128 extent = _mm_sub_ps(centroids.upper, centroids.lower);
     const __m128 wide = _mm_cmpge_ps(extent, _mm_set1_ps(std::numeric_limits<float>::min()));
-    const __m128 steps = _mm_and_ps(wide, _mm_div_ps(_mm_set1_ps(0x1p24F), extent));
+    const __m128 last = _mm_set1_ps(places - 1);
+    const __m128 steps = _mm_and_ps(wide, _mm_div_ps(last, extent));
     for (std::size_t i = 0; i < count; i += 8)
       for (auto& column : keys)
-        for (std::size_t j = 0; j < 8; j += 4)
-          _mm_store_si128(reinterpret_cast<__m128i*>(column + i + j),
-                          _mm_set1_epi32(std::numeric_limits<std::int32_t>::max()));
+        _mm_store_si128(reinterpret_cast<__m128i*>(column + i),
+                        _mm_set1_epi16(std::numeric_limits<std::int16_t>::max()));
     for (std::size_t i = 0; i < count; ++i) {
       const __m128 centroid = doubled_centroid({lower_[i], upper_[i]});
-      const __m128i place = _mm_cvttps_epi32(_mm_mul_ps(_mm_sub_ps(centroid, centroids.lower), steps));
-      alignas(16) std::int32_t xyz[4];
-      _mm_store_si128(reinterpret_cast<__m128i*>(xyz),
-                      _mm_add_epi32(_mm_slli_epi32(place, index_bits), _mm_set1_epi32(static_cast<int>(i))));
-      for (int axis = 0; axis < 3; ++axis) keys[axis][i] = xyz[axis];
+      const __m128 place = _mm_mul_ps(_mm_sub_ps(centroid, centroids.lower), steps);
+      const __m128i whole = _mm_cvttps_epi32(_mm_min_ps(_mm_max_ps(place, _mm_setzero_ps()), last));
+      const __m128i key =
+          _mm_add_epi32(_mm_slli_epi32(whole, index_bits), _mm_set1_epi32(static_cast<int>(i) + smallest));
+      keys[0][i] = static_cast<std::int16_t>(_mm_extract_epi16(key, 0));
+      keys[1][i] = static_cast<std::int16_t>(_mm_extract_epi16(key, 2));
+      keys[2][i] = static_cast<std::int16_t>(_mm_extract_epi16(key, 4));
     }
   }
 
@@ -176,10 +179,18 @@ private:
   }
 
   GroupedNode make_leaf_node(std::size_t begin, std::size_t end, const LaneBox& bounds,
-                             const Lists& lists) const {
-    const std::uint8_t* list = lists.sorted[0];
+                             const std::uint8_t* list) const {
     for (std::size_t i = begin; i < end; ++i) context_.order[begin_ + i] = ids_[list[i]];
     return make_node(bounds, begin_ + begin, end - begin, groups_[list[begin]]);
+  }
+
+  // Leaves need no sorted lists.
+  GroupedNode make_two_leaves(std::size_t begin, std::size_t end, std::size_t middle, const LaneBox& bounds,
+                              const std::uint8_t* list) {
+    const std::uint32_t first = list_.add_pair();
+    put_node(list_, first, make_leaf_node(begin, middle, bounds_of(begin, middle, list), list));
+    put_node(list_, first + 1, make_leaf_node(middle, end, bounds_of(middle, end, list), list));
+    return make_node(bounds, first, 0, 0);
   }
 
   GroupedNode make_inner_node(std::size_t begin, std::size_t end, const Sides& sides, const LaneBox& bounds,
@@ -188,16 +199,17 @@ private:
     divide(begin, end, sides, lists, below);
     const std::size_t middle = begin + sides.left_count;
     const std::uint32_t first = list_.add_pair();
-    put_node(list_, first, build(begin, middle, bounds_of(begin, middle, below), level + 1, below));
-    put_node(list_, first + 1, build(middle, end, bounds_of(middle, end, below), level + 1, below));
+    const std::uint8_t* list = below.sorted[0];
+    put_node(list_, first, build(begin, middle, bounds_of(begin, middle, list), level + 1, below));
+    put_node(list_, first + 1, build(middle, end, bounds_of(middle, end, list), level + 1, below));
     return make_node(bounds, first, 0, 0);
   }
 
   LaneBox box(std::size_t i) const { return {lower_[i], upper_[i]}; }
 
-  LaneBox bounds_of(std::size_t begin, std::size_t end, const Lists& lists) const {
+  LaneBox bounds_of(std::size_t begin, std::size_t end, const std::uint8_t* list) const {
     LaneBox bounds;
-    for (std::size_t i = begin; i < end; ++i) bounds.extend(box(lists.sorted[0][i]));
+    for (std::size_t i = begin; i < end; ++i) bounds.extend(box(list[i]));
     return bounds;
   }
 
