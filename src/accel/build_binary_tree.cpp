@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@ namespace {
 constexpr std::size_t serial_range = std::size_t{1} << 12U; // ranges up to this size are one task
 constexpr std::size_t min_chunk = std::size_t{1} << 12U;
 constexpr std::size_t max_chunks = 64;
+constexpr unsigned count_bits = 16; // of a leaf's primitives; its group goes above them for a while
+static_assert(sizeof(BinaryNode) == sizeof(PrimitiveBox) && block_size * max_leaf_blocks < 1 << count_bits);
 
 // Neighbouring primitives of a range that one task moves. The cuts depend on the primitives alone, not on
 // threads; so does everything that follows.
@@ -31,8 +34,9 @@ struct TopNode {
   std::vector<Chunk> chunks;
   std::unique_ptr<TopNode> children[2];
   GroupedNode node;
-  NodeList below;          // of a serial range
-  std::uint32_t index = 0; // of the node in the whole tree
+  std::size_t below_count = 0; // nodes below a serial range's root
+  NodeList spilled;            // those, if there are too many for the primitives' place
+  std::uint32_t index = 0;     // of the node in the whole tree
   std::uint32_t first_below = 0;
 };
 
@@ -49,13 +53,18 @@ public:
   }
 
   BinaryTree build() {
-    run_tasks(threads_, failure_, [&] { build_root(); });
-    boxes_ = other_ = {}; // all is in the nodes now, which take their place
+    run_tasks(threads_, failure_, [&] {
+      lists_.resize(static_cast<std::size_t>(omp_get_num_threads()));
+      build_root();
+    });
+    other_ = {};
+    lists_ = {};
     std::uint32_t next = 1;
     place(root_, 0, next);
     tree_.nodes.resize(next);
     tree_.group_of_leaf.resize(next);
     run_tasks(threads_, failure_, [&] { copy(root_); });
+    boxes_ = {};
     return std::move(tree_);
   }
 
@@ -106,8 +115,10 @@ private:
     for (const Chunk& chunk : top.chunks) bins.add(chunk.bins);
     if (top.range.size() <= serial_range) {
       top.chunks = {};
-      top.below.reserve(top.range.size() / 2);
-      top.node = build_range(context_, top.range, bins, top.below);
+      NodeList& list = lists_[static_cast<std::size_t>(omp_get_thread_num())];
+      list.clear();
+      top.node = build_range(context_, top.range, bins, list);
+      put_away(top, list);
       return;
     }
     for (auto& child : top.children) child = std::make_unique<TopNode>();
@@ -130,6 +141,30 @@ private:
     top.chunks = {};
     top.node = make_node(top.range.bounds, 0, 0, 0);
     for (auto& child : top.children) spawn(failure_, [this, node = child.get()] { build(*node); });
+  }
+
+  // Nobody needs the primitives of a finished range any more: its nodes take their place, so that memory does
+  // not grow with the tree.
+  void put_away(TopNode& top, const NodeList& list) {
+    top.below_count = list.nodes.size();
+    if (top.below_count > top.range.size()) {
+      top.spilled = list;
+      return;
+    }
+    for (std::size_t i = 0; i < top.below_count; ++i) {
+      BinaryNode node = list.nodes[i];
+      node.count |= static_cast<std::uint32_t>(list.groups[i]) << count_bits;
+      std::memcpy(static_cast<void*>(boxes_.data() + top.range.begin + i), &node, sizeof(node));
+    }
+  }
+
+  GroupedNode node_below(const TopNode& top, std::size_t i) const {
+    if (!top.spilled.nodes.empty()) return {top.spilled.nodes[i], top.spilled.groups[i]};
+    GroupedNode made;
+    std::memcpy(&made.node, boxes_.data() + top.range.begin + i, sizeof(made.node));
+    made.group = static_cast<std::uint8_t>(made.node.count >> count_bits);
+    made.node.count &= (1U << count_bits) - 1U;
+    return made;
   }
 
   void move_chunks(TopNode& top, const Bins& bins, const BinSplit& split) {
@@ -175,7 +210,7 @@ private:
     top.first_below = next;
     if (top.node.node.count == 0) top.node.node.first = next;
     if (!top.children[0]) {
-      next += static_cast<std::uint32_t>(top.below.nodes.size());
+      next += static_cast<std::uint32_t>(top.below_count);
       return;
     }
     next += 2;
@@ -188,16 +223,17 @@ private:
     tree_.group_of_leaf[top.index] = top.node.group;
     for (const auto& child : top.children)
       if (child) spawn(failure_, [this, node = child.get()] { copy(*node); });
-    for (std::size_t i = 0; i < top.below.nodes.size(); ++i) {
-      BinaryNode node = top.below.nodes[i];
-      if (node.count == 0) node.first += top.first_below;
-      tree_.nodes[top.first_below + i] = node;
-      tree_.group_of_leaf[top.first_below + i] = top.below.groups[i];
+    for (std::size_t i = 0; i < top.below_count; ++i) {
+      GroupedNode made = node_below(top, i);
+      if (made.node.count == 0) made.node.first += top.first_below;
+      tree_.nodes[top.first_below + i] = made.node;
+      tree_.group_of_leaf[top.first_below + i] = made.group;
     }
   }
 
   Column<PrimitiveBox>& boxes_;
   Column<PrimitiveBox> other_;
+  std::vector<NodeList> lists_; // of each thread, for one serial range after the other
   int threads_;
   std::size_t chunk_size_;
   BuildContext context_;

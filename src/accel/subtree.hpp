@@ -31,13 +31,18 @@ struct NodeList {
     groups.resize(first + 2);
     return static_cast<std::uint32_t>(first);
   }
+  void clear() {
+    nodes.clear();
+    groups.clear();
+  }
+
+private:
   void reserve(std::size_t count) {
     nodes_reserved = count < 64 ? 64 : count;
     nodes.reserve(nodes_reserved);
     groups.reserve(nodes_reserved);
   }
 
-private:
   std::size_t nodes_reserved = 0;
 };
 
