@@ -78,6 +78,22 @@ TEST(Build, makes_groups_share_no_leaf_however_few) {
   EXPECT_EQ(tree.nodes.size(), 3U);
 }
 
+// Then there are more nodes than primitives.
+TEST(Build, can_make_a_leaf_of_each_primitive) {
+  for (const std::size_t count : {64U, 30000U}) {
+    const Case apart{"", count, [](std::size_t i, Random&) {
+                       return box_around(static_cast<float>(i), 0, 0, 0.25F, i, i % max_groups);
+                     }};
+    const Column<PrimitiveBox> boxes = apart.boxes();
+    for (const int threads : {1, 3}) {
+      Column<PrimitiveBox> scratch = boxes;
+      const BinaryTree tree = build_binary_tree(scratch, {threads});
+      EXPECT_EQ(tree.nodes.size(), 2 * count - 1);
+      EXPECT_EQ(check_tree(tree, boxes), "");
+    }
+  }
+}
+
 int depth_below(const NodeList& list, const BinaryNode& node) {
   if (node.count != 0) return 1;
   return 1 +
