@@ -129,7 +129,8 @@ void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
 // Trees -> blocks and rows.
 SceneTrees build(Tracer::Parts& parts, int threads, BvhQuality quality) {
   BuildSettings settings;
-  settings.threads = parts.scene.primitive_count() < parallel_build_from ? 1 : thread_count(threads);
+  const std::size_t boxes = std::size_t{parts.scene.primitive_count()} + parts.scene.instance_count();
+  settings.threads = boxes < parallel_build_from ? 1 : thread_count(threads);
   settings.quality = quality;
   settings.run_size = run_size_of(parts.isa);
   SceneTrees trees;
