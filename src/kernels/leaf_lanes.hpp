@@ -38,6 +38,14 @@ FASTRT_INLINE void for_each_run(const Block* blocks, std::uint32_t leaf, const M
   }
 }
 
+// The blocks of a leaf that are met first.
+template <class Block>
+FASTRT_INLINE BlockRun<Block> first_run(const Block* blocks, std::uint32_t leaf) {
+  const std::uint32_t left = leaf_blocks(leaf), taken = left < blocks_at_once ? left : blocks_at_once;
+  const Block* const block = blocks + leaf_first_block(leaf);
+  return {block, block + (taken - 1), static_cast<int>(taken) * block_size};
+}
+
 // Vertex v of the run's triangles.
 FASTRT_INLINE V3<LeafF> load_vertices(const BlockRun<TriangleBlock>& run, int v) {
   return {load_two<LeafF>(run.low->x[v], run.high->x[v]), load_two<LeafF>(run.low->y[v], run.high->y[v]),

@@ -127,18 +127,11 @@ FASTRT_INLINE void meet_run(LoneRay& ray, const BlockRun<SphereBlock>& run) {
   if (hit != 0) keep_closest(ray, hit, lanes.t, run);
 }
 
-// size: of the leaf's box, at least; infinity where that is not known. Counts the runs of blocks that it
-// takes.
+// Leaves that hold no triangles. Counts the runs of blocks that it takes.
 template <bool any>
-FASTRT_INLINE void meet_leaf(const GeometryView& scene, HitBatch& hits, LoneRay& ray, std::uint32_t leaf,
-                             float size, std::uint32_t& runs) {
-  if (leaf_group(leaf) == triangle_group)
-    for_each_run(scene.triangles, leaf, [&](const BlockRun<TriangleBlock>& run) {
-      ++runs;
-      const std::uint32_t around = triangles_around(ray, run, size);
-      if (around != 0) meet_triangles(ray, run, around);
-    });
-  else if (leaf_group(leaf) == sphere_group)
+FASTRT_INLINE void meet_other_leaf(const GeometryView& scene, HitBatch& hits, LoneRay& ray,
+                                   std::uint32_t leaf, std::uint32_t& runs) {
+  if (leaf_group(leaf) == sphere_group)
     for_each_run(scene.spheres, leaf, [&](const BlockRun<SphereBlock>& run) {
       ++runs;
       meet_run(ray, run);
