@@ -2,8 +2,7 @@
 // The two questions about a batch of rays, and the choice of how to trace it.
 #pragma once
 
-#include "src/kernels/beam_traversal.hpp"
-#include "src/kernels/packed_batch.hpp"
+#include "src/kernels/apart_rays.hpp"
 #include "src/kernels/pencil_traversal.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -30,16 +29,39 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
   hits.primitives += static_cast<std::uint64_t>(rays.count) * shapes.plane_count;
 }
 
-// Neighbouring rays: as one beam, or where they point apart in packets. What beams are best at is telling
-// which rays triangles lie around; on the way to lights that are shadowed by other primitives packets are
-// faster.
 template <bool any>
-static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
-                        int first, int count) noexcept {
-  const bool beams = !any || scene.has_triangles != 0;
-  if (beams && trace_beam<any>(scene, rays, hits, columns, first, count)) return;
+FASTRT_INLINE void trace_packets(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                                 LoneColumns& columns, int first, int count) {
   for (int i = first; i < first + count && i < rays.count; i += widest)
     trace_packet<any>(scene, rays, hits, columns, i);
+}
+
+// Neighbouring rays: as beams, and where they point apart, after them in other ways if leaves hold triangles
+// alone, else in packets. What beams and lone rays are best at is telling which rays triangles lie around; on
+// the way to lights that are shadowed by other primitives packets are faster.
+template <bool any>
+static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                        LoneColumns& columns) noexcept {
+  const bool beams = !any || scene.has_triangles != 0;
+  RayBits apart{};
+  std::uint64_t some = 0;
+  std::uint8_t alone[batch_size];
+  int alone_count = 0;
+  const int end = (rays.count + group_size - 1) / group_size * group_size;
+  for (int first = 0; first < end; first += beam_size) {
+    const int count = end - first < beam_size ? end - first : beam_size;
+    const BeamRest rest =
+        beams ? trace_beam<any>(scene, rays, hits, columns, first, count) : BeamRest{~std::uint64_t{0}, 0};
+    if (scene.only_triangles == 0) {
+      if (rest.apart != 0) trace_packets<any>(scene, rays, hits, columns, first, count);
+      continue;
+    }
+    some |= rest.apart | rest.alone;
+    alone_count = list_rays(rest.alone, first, alone, alone_count);
+    for (int g = 0; g < count / group_size; ++g)
+      apart.of_group[first / group_size + g] = rays_of_group(rest.apart, g);
+  }
+  if (some != 0) trace_apart<any>(scene, rays, apart, hits, columns, alone, alone_count);
 }
 
 template <bool any>
@@ -49,17 +71,12 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
   if (alike && scene.culls != 0 && trace_tile<any>(scene, rays, hits)) return;
   LoneColumns columns;
   columns.ready = 0;
-  if (scene.culls == 0) {
-    for (int i = 0; i < rays.count; i += widest) trace_packet<any>(scene, rays, hits, columns, i);
-    return;
-  }
-  if (rays.shape == BatchShape::any) {
+  if (scene.culls == 0)
+    trace_packets<any>(scene, rays, hits, columns, 0, rays.count);
+  else if (rays.shape == BatchShape::any)
     trace_rays_alone<any>(scene, rays, hits, columns);
-    return;
-  }
-  const int end = (rays.count + group_size - 1) / group_size * group_size;
-  for (int first = 0; first < end; first += beam_size)
-    trace_alike<any>(scene, rays, hits, columns, first, end - first < beam_size ? end - first : beam_size);
+  else
+    trace_alike<any>(scene, rays, hits, columns);
 }
 
 // Rays with gaps between them. (Not for tiles: their groups would become wider.)

@@ -89,9 +89,10 @@ struct RayColumns {
   const float* dir[3];
 };
 
-// Lines of rays k .., depth counted from the origin of space; false where one looks too far aside.
-FASTRT_INLINE bool place_rays(const RayColumns& rays, int first, int k, std::uint32_t bits, Beam& beam,
-                              PacketF& largest_origin) {
+// Lines of rays k .., depth counted from the origin of space. Returns those of `bits` that do not look too
+// far aside; the others take no part.
+FASTRT_INLINE std::uint32_t place_rays(const RayColumns& rays, int first, int k, std::uint32_t bits,
+                                       Beam& beam, PacketF& largest_origin) {
   const int i = first + k;
   BeamRays& out = beam.rays;
   const PacketF sign(beam.backwards ? -0.0F : 0.0F);
@@ -100,6 +101,9 @@ FASTRT_INLINE bool place_rays(const RayColumns& rays, int first, int k, std::uin
                 origin_z = flip(load<PacketF>(rays.origin[beam.z] + i), sign);
   const PacketF dir_x = load<PacketF>(rays.dir[beam.x] + i), dir_y = load<PacketF>(rays.dir[beam.y] + i);
   const PacketF scale = flip(load<PacketF>(rays.dir[beam.z] + i), sign), inverse = PacketF(1.0F) / scale;
+  const PacketM forward = (PacketF(2.0F) * scale > max(abs(dir_x), abs(dir_y))) &
+                          (scale > PacketF(1.0F / beam_limit)) & (scale < PacketF(beam_limit));
+  bits &= to_bits(forward);
   const PacketM mask = from_bits<widest>(bits);
   const PacketF none(__builtin_nanf(""));
   select(mask, origin_x, none).store_aligned(out.x + k);
@@ -110,9 +114,7 @@ FASTRT_INLINE bool place_rays(const RayColumns& rays, int first, int k, std::uin
   scale.store_aligned(out.scale + k);
   largest_origin =
       max(select(mask, largest(V3<PacketF>{origin_x, origin_y, origin_z}), PacketF(0.0F)), largest_origin);
-  const PacketM forward = (PacketF(2.0F) * scale > max(abs(dir_x), abs(dir_y))) &
-                          (scale > PacketF(1.0F / beam_limit)) & (scale < PacketF(beam_limit));
-  return (to_bits(forward) & bits) == bits;
+  return bits;
 }
 
 // Least and most of a group's 16 values; NaN counts for nothing.
@@ -177,13 +179,46 @@ FASTRT_INLINE void set_depth(Beam& beam, int count, float depth) {
   }
 }
 
+// Where leaves hold triangles alone, rays that point aside are left to others: a beam is made of this many
+// rays or more, and of this share of those that could be part of it.
+inline constexpr int least_beam = 8;
+inline constexpr float least_beam_share = 0.5F;
+// And a group that looks at more triangles than about this / 4 pi is no beam: its rays would have little but
+// the top of the tree in common. (Slopes' range, as an area, times the scene's triangles.)
+inline constexpr float most_in_view = 1e5F;
+
+// Rays that are not traced with a beam: those that others might take, and those that are best off alone.
+struct BeamRest {
+  std::uint64_t apart, alone;
+};
+
+FASTRT_INLINE bool takes_beam(const GeometryView& scene, std::uint64_t all, std::uint64_t live) {
+  if (scene.only_triangles == 0) return live == all;
+  const int count = __builtin_popcountll(live);
+  return count >= least_beam &&
+         static_cast<float>(count) >= least_beam_share * static_cast<float>(__builtin_popcountll(all));
+}
+
+FASTRT_INLINE bool sees_too_much(const GeometryView& scene, const Beam& beam) {
+  const GroupF width =
+                   GroupF::load_aligned(beam.groups.slope_x1) - GroupF::load_aligned(beam.groups.slope_x0),
+               height =
+                   GroupF::load_aligned(beam.groups.slope_y1) - GroupF::load_aligned(beam.groups.slope_y0);
+  const Mask<beam_groups> used = width >= GroupF(0.0F);
+  const float area = simd::hadd(select(used, width * height, GroupF(0.0F)));
+  return area * static_cast<float>(scene.only_triangles) >
+         most_in_view * static_cast<float>(__builtin_popcount(to_bits(used)));
+}
+
 // Prepares rays first .. first + count - 1 (count a multiple of the group's size; what lies beyond the batch
-// takes no part). False if they point too widely apart to be seen as one.
-FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, int first, int count,
-                             Beam& beam) {
+// takes no part). beam.live is 0, and all rays are left, where they are not worth a beam.
+FASTRT_INLINE BeamRest make_beam(const GeometryView& scene, const RayBatch& rays, int first, int count,
+                                 Beam& beam) {
   const V3<float> sum =
       sum_directions(rays, first, rays.count - first < count ? rays.count - first : count, beam.live);
-  if (!(dot(sum, sum) > 0.0F)) return false;
+  const std::uint64_t all = beam.live;
+  beam.live = 0;
+  if (!(dot(sum, sum) > 0.0F)) return {~std::uint64_t{0}, 0};
   const float along[3] = {magnitude(sum.x), magnitude(sum.y), magnitude(sum.z)};
   beam.z = along[1] > along[0] ? 1 : 0;
   if (along[2] > along[beam.z]) beam.z = 2;
@@ -193,10 +228,12 @@ FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, in
   const RayColumns columns{{rays.origin_x, rays.origin_y, rays.origin_z},
                            {rays.dir_x, rays.dir_y, rays.dir_z}};
   PacketF largest_origin(0.0F);
+  std::uint64_t live = 0;
   for (int k = 0; k < count; k += widest)
-    if (!place_rays(columns, first, k, static_cast<std::uint32_t>(beam.live >> k) & register_bits, beam,
-                    largest_origin))
-      return false;
+    live |= std::uint64_t{place_rays(columns, first, k, static_cast<std::uint32_t>(all >> k) & register_bits,
+                                     beam, largest_origin)}
+            << k;
+  if (!takes_beam(scene, all, live)) return {all, 0};
   float depth = __builtin_inff();
   for (int g = 0; g < count / group_size; ++g) {
     const float least = least_of_group(beam.rays.begin + g * group_size);
@@ -205,13 +242,15 @@ FASTRT_INLINE bool make_beam(const GeometryView& scene, const RayBatch& rays, in
   const float size = reduce_max(largest_origin);
   if (!(size <= far_origin * scene.largest_coordinate && scene.largest_coordinate < beam_limit &&
         scene.largest_coordinate > 1.0F / beam_limit))
-    return false;
+    return {all, 0};
   beam.padding = 4.0F * box_padding * (size > scene.largest_coordinate ? size : scene.largest_coordinate);
   set_depth(beam, count, depth);
   for (int g = 0; g < count / group_size; ++g) bound_group(beam, g);
   for (int g = count / group_size; g < beam_groups; ++g) leave_out_group(beam, g);
+  if (sees_too_much(scene, beam)) return {all & ~live, live};
   beam.depth = depth;
-  return true;
+  beam.live = live;
+  return {all & ~live, 0};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -54,19 +54,20 @@ static void traverse_beam(BeamTraversal<any>& t) noexcept {
   }
 }
 
-// Traces rays first .. first + count - 1 (count: a multiple of group_size) as one; false (and nothing done)
-// if they point too widely apart.
+// Traces rays first .. first + count - 1 (count: a multiple of group_size) as one. Returns those with which
+// nothing is done.
 template <bool any>
-static bool trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
-                       int first, int count) noexcept {
+static BeamRest trace_beam(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
+                           LoneColumns& columns, int first, int count) noexcept {
   Beam beam;
-  if (!make_beam(scene, rays, first, count, beam)) return false;
+  const BeamRest left = make_beam(scene, rays, first, count, beam);
+  if (beam.live == 0) return left;
   BeamTraversal<any> t{scene, rays, hits, columns, first, beam, beam.live};
   for (int g = 0; g < count / group_size; ++g)
     beam.far[g] = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
   traverse_beam(t);
   count_tests(hits, t.nodes, t.tests);
-  return true;
+  return left;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

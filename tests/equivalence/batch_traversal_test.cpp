@@ -98,6 +98,24 @@ TEST_P(BatchTraversal, AcrossEdgesFindsWhatBruteForceFinds) {
   expect_hits(0.02);
 }
 
+// Neighbours that go two to six ways, in any mixture.
+TEST_P(BatchTraversal, OfSeveralWaysFindsWhatBruteForceFinds) {
+  Random random(56);
+  for (int i = 0; i < rounds(60); ++i) {
+    const std::uint32_t ways = 2 + random.below(5), first = random.below(16);
+    std::vector<RayRun> runs;
+    for (std::uint32_t way = 0; way < ways; ++way)
+      runs.push_back(random.below(2) == 0 ? fan_to_patch(scene(), origin_at(scene(), random), random)
+                                          : beam_to_patch(scene(), random.direction(), random));
+    RayRun run(batch_size);
+    for (std::size_t ray = 0; ray < run.size(); ++ray)
+      run[ray] = runs[random.below(16) < first ? 0 : random.below(ways)][ray];
+    vary(run, scene(), true, random);
+    expect_same(run, any_count(random), {BatchShape::coherent});
+  }
+  expect_hits(0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, BatchTraversal, testing::ValuesIn(geometry_scenes()), SceneName());
 
 } // namespace
