@@ -109,31 +109,55 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
   if (instances) load<PathI>(s.planar_inner + i).store_aligned(rays.exclude_inner + i);
 }
 
-// L = L + ((Kd * cos + Ks * sp) * I) * S for the lanes in `bits`.
-FASTRT_INLINE void add_light(const ShadingView& scene, const LightRow& light, const LightBatch& seen,
-                             std::uint32_t bits, int i, SurfaceBatch& s) {
-  const PathV to_light = load3<PathF>(seen.to_light_x + i, seen.to_light_y + i, seen.to_light_z + i);
-  const PathV normal = load_shading(s, i), viewer = load_viewer(s, i);
-  const PathF cosine = PathF::load_aligned(seen.cosine + i);
-  const PathF zero(0.0F);
-  PathV reflected = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
+// How surfaces reflect the light that comes straight from a light; bits: the lanes whose Ks counts, and those
+// of them that are Blinn's.
+struct ReflectingLanes {
+  PathV diffuse, specular;
+  PathF shininess;
+  std::uint32_t glossy, blinn;
+};
+
+FASTRT_INLINE ReflectingLanes reflecting_lanes(const ShadingView& scene, const SurfaceBatch& s,
+                                               std::uint32_t bits, int i) {
+  const PathV none = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
+  ReflectingLanes out{none, none, PathF(0.0F), 0, 0};
   for_each_material(
-      scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t) {
+      scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t same) {
         const bool varies = row.textures != nullptr;
         const PathV kd = varies ? load3<PathF>(s.diffuse_r + i, s.diffuse_g + i, s.diffuse_b + i)
                                 : broadcast3<PathF>(row.diffuse);
         const PathV ks = varies ? load3<PathF>(s.specular_r + i, s.specular_g + i, s.specular_b + i)
                                 : broadcast3<PathF>(row.specular);
-        PathV sum = kd * cosine;
-        PathF sp = zero;
-        if (row.has_specular != 0) {
-          const PathF x = row.blinn != 0 ? dot(normal, normalize(to_light + viewer))
-                                         : dot(viewer, normal * (PathF(2.0F) * cosine) - to_light);
-          sp = simd::select(x > zero, shared_pow<BatchOps<widest>>(x, PathF(row.shininess)), zero);
-        }
-        sum = sum + ks * sp;
-        reflected = select(mask, sum, reflected);
+        out.diffuse = select(mask, kd, out.diffuse);
+        out.specular = select(mask, ks, out.specular);
+        out.shininess = simd::select(mask, PathF(row.shininess), out.shininess);
+        if (row.has_specular != 0) out.glossy |= same;
+        if (row.has_specular != 0 && row.blinn != 0) out.blinn |= same;
       });
+  return out;
+}
+
+// sp of all lanes at once, whatever their materials; 0 where Ks does not count.
+FASTRT_INLINE PathF highlight(const ReflectingLanes& lanes, const PathV& normal, const PathV& viewer,
+                              const PathV& to_light, const PathF& cosine) {
+  const PathF zero(0.0F);
+  if (lanes.glossy == 0) return zero;
+  PathF x = dot(viewer, normal * (PathF(2.0F) * cosine) - to_light);
+  if (lanes.blinn != 0)
+    x = simd::select(from_bits<widest>(lanes.blinn), dot(normal, normalize(to_light + viewer)), x);
+  const std::uint32_t shining = to_bits(x > zero) & lanes.glossy;
+  if (shining == 0) return zero;
+  return simd::select(from_bits<widest>(shining), shared_pow<BatchOps<widest>>(x, lanes.shininess), zero);
+}
+
+// L = L + ((Kd * cos + Ks * sp) * I) * S for the lanes in `bits`.
+FASTRT_INLINE void add_light(const ShadingView& scene, const LightRow& light, const LightBatch& seen,
+                             std::uint32_t bits, int i, SurfaceBatch& s) {
+  const PathV to_light = load3<PathF>(seen.to_light_x + i, seen.to_light_y + i, seen.to_light_z + i);
+  const PathF cosine = PathF::load_aligned(seen.cosine + i);
+  const ReflectingLanes lanes = reflecting_lanes(scene, s, bits, i);
+  const PathF sp = highlight(lanes, load_shading(s, i), load_viewer(s, i), to_light, cosine);
+  const PathV reflected = lanes.diffuse * cosine + lanes.specular * sp;
   const PathV visible = load3<PathF>(seen.visible_r + i, seen.visible_g + i, seen.visible_b + i);
   PathV intensity = broadcast3<PathF>(light.intensity);
   if (light.varies != 0) intensity = intensity * PathF::load_aligned(seen.strength + i);
