@@ -174,15 +174,33 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<SphereBlock>& 
       const std::uint32_t group = rays_of_group(rays, g);
       if (group == 0) continue;
       const std::uint32_t changed = meet_beam_group(t, g, group, block.primitive[s], [&](int i) -> MetLanes {
-        const SphereLanes<PacketF> lanes =
-            intersect_sphere(center, PacketF(block.radius[s]), load_origin(t.rays, i), load_dir(t.rays, i),
-                             PacketF::load_aligned(t.rays.t_min + i));
+        const SphereLanes<PacketF> lanes = intersect_sphere(
+            center, PacketF(block.radius[s]), load_origin(t.rays, i), load_dir(t.rays, i),
+            PacketF::load_aligned(t.rays.t_min + i), group >> ((i - t.first) % group_size) & register_bits);
         return {lanes.hit, lanes.t};
       });
       if (changed != 0) shorten_group(t, g, changed);
     }
   }
 }
+
+// Extents as columns, for looking at single rays.
+struct LoneBoxes {
+  alignas(32) float u0[leaf_lanes], u1[leaf_lanes], v0[leaf_lanes], v1[leaf_lanes], begin[leaf_lanes],
+      end[leaf_lanes];
+
+  [[gnu::always_inline]] inline explicit LoneBoxes(const Extents<LeafF>& e) {
+    e.u.low.store_aligned(u0);
+    e.u.high.store_aligned(u1);
+    e.v.low.store_aligned(v0);
+    e.v.high.store_aligned(v1);
+    max(e.w.low, LeafF(0.0F)).store_aligned(begin);
+    e.w.high.store_aligned(end);
+  }
+  [[gnu::always_inline]] inline LoneExtents of(int lane) const {
+    return {u0[lane], u1[lane], v0[lane], v1[lane], begin[lane], end[lane]};
+  }
+};
 
 // The extents of a run's shapes: those of their boxes.
 FASTRT_INLINE Extents<LeafF> extents_of_shapes(const Beam& beam, const BlockRun<ShapeBlock>& run) {
@@ -223,7 +241,9 @@ template <bool any>
 [[gnu::noinline]] static void meet_shapes(BeamTraversal<any>& t, const BlockRun<ShapeBlock>& run,
                                           std::uint64_t rays) noexcept {
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
-  const std::uint32_t touched = touch_boxes(t.beam, e);
+  const std::uint32_t touched = touch_boxes(t.beam, e) & places_of(rays);
+  if (touched == 0) return;
+  const LoneBoxes boxes(e);
   std::uint64_t visitors[leaf_lanes] = {}; // of instances
   std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
@@ -239,10 +259,14 @@ template <bool any>
         instances |= 1U << lane;
         continue;
       }
-      changed |= meet_beam_group(t, g, group, id, [&](int i) -> MetLanes {
+      const std::uint32_t asked = touch_rays(t.beam.rays, boxes.of(lane), g) & group &
+                                  ~rays_that_exclude(t.rays, t.first + g * group_size, id);
+      if (asked == 0) continue;
+      changed |= meet_beam_group(t, g, asked, id, [&](int i) -> MetLanes {
         const ShapeLanes<PacketF> met =
             intersect_shape(t.scene.shapes, id, load_origin(t.rays, i), load_dir(t.rays, i),
-                            PacketF::load_aligned(t.rays.t_min + i));
+                            {PacketF::load_aligned(t.rays.t_min + i), PacketF::load_aligned(t.hits.t + i),
+                             asked >> ((i - t.first) % group_size) & register_bits});
         return {met.hit, met.t};
       });
     }

@@ -102,14 +102,18 @@ template <bool any>
     for (int i = 0; i < block_size && block->primitive[i] >= 0; ++i) {
       const SlabLanes<PacketF> slab = meet_box(p, block->low_x[i], block->high_x[i], block->low_y[i],
                                                block->high_y[i], block->low_z[i], block->high_z[i]);
-      if ((to_bits(slab.near <= slab.far) & active) == 0) continue;
+      const std::uint32_t met_box = to_bits(slab.near <= slab.far) & active;
+      if (met_box == 0) continue;
       if (is_no_shape(scene, block->primitive[i])) {
         meet_instance<any>(scene, batch, p, active, block->primitive[i]);
         continue;
       }
+      const PacketM self = simd::bool_cast(p.exclude == PacketI(block->primitive[i]));
+      const std::uint32_t asked = met_box & ~to_bits(self);
+      if (asked == 0) continue;
       const ShapeLanes<PacketF> met =
-          intersect_shape(scene.shapes, block->primitive[i], p.origin, p.dir, p.t_min);
-      const PacketM hit = met.hit & from_bits<widest>(active);
+          intersect_shape(scene.shapes, block->primitive[i], p.origin, p.dir, {p.t_min, p.t, asked});
+      const PacketM hit = met.hit & from_bits<widest>(asked);
       if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, met.t, block->primitive[i]);
     }
 }

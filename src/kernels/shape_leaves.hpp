@@ -69,7 +69,8 @@ template <bool any, class Ray>
         continue;
       }
       if (id == ray.rays->exclude[ray.index]) continue;
-      const ShapeLanes<LeafF> met = intersect_shape(scene.shapes, id, origin, dir, LeafF(ray.t_min));
+      const ShapeLanes<LeafF> met =
+          intersect_shape(scene.shapes, id, origin, dir, {LeafF(ray.t_min), LeafF(ray.t), 1U});
       if ((to_bits(met.hit) & 1U) == 0) continue;
       const float t = met.t.get(0);
       if (t < ray.t || (t == ray.t && id < ray.primitive)) shorten(ray, t, id);

@@ -14,6 +14,14 @@ struct ShapeLanes {
   F t; // meaningful where `hit`; > t_min there
 };
 
+// What a shape is asked for: hits at t_min < t, of the lanes in `bits`. Hits beyond `limit`, and of other
+// lanes, may be reported or not.
+template <class F>
+struct ShapeQuestion {
+  F t_min, limit;
+  std::uint32_t bits;
+};
+
 // Whether the point at t is in the shape's own box, a little larger for the rounding: then it is in every box
 // that a tree knows of.
 template <class F>
@@ -47,7 +55,7 @@ FASTRT_INLINE Inside<F> inside_slab(const F& half_height, const F& m, const F& n
 
 template <class F>
 FASTRT_INLINE ShapeLanes<F> intersect_cone(const ConeRow& cone, const V3<F>& origin, const V3<F>& dir,
-                                           const F& t_min) {
+                                           const ShapeQuestion<F>& asked) {
   const F zero(0.0F), forever(__builtin_inff()), ever(-__builtin_inff());
   const V3<F> axis = broadcast3<F>(cone.axis);
   const V3<F> f = origin - broadcast3<F>(cone.center);
@@ -62,7 +70,7 @@ FASTRT_INLINE ShapeLanes<F> intersect_cone(const ConeRow& cone, const V3<F>& ori
   const F a = dot(e, e) - grow * grow;
   const MaskOf<F> steep = a < zero;
   MaskOf<F> meets = (discriminant >= zero) | steep;
-  if (to_bits(meets) == 0) return {meets, zero};
+  if ((to_bits(meets) & asked.bits) == 0) return {from_bits<width_of<F>>(0), zero};
   const F b = k * grow - dot(g, e);
   const F c = dot(g, g) - k * k;
   const F q = b + flip(sqrt(max(discriminant, zero)), sign_bit(b));
@@ -85,23 +93,23 @@ FASTRT_INLINE ShapeLanes<F> intersect_cone(const ConeRow& cone, const V3<F>& ori
     leaves = (slab.from <= to) & (to <= slab.to);
   }
   const F t_from = shift + from, t_to = shift + to;
-  const MaskOf<F> first = enters & (t_from > t_min);
-  const MaskOf<F> hit = meets & (first | (leaves & (t_to > t_min)));
-  if (to_bits(hit) == 0) return {hit, zero};
+  const MaskOf<F> first = enters & (t_from > asked.t_min);
+  const MaskOf<F> hit = meets & (first | (leaves & (t_to > asked.t_min)));
+  if ((to_bits(hit) & asked.bits) == 0) return {from_bits<width_of<F>>(0), zero};
   const F t = select(first, t_from, t_to);
   return {hit & is_within_reach(cone.low, cone.high, origin, dir, t), t};
 }
 
 template <class F>
 FASTRT_INLINE ShapeLanes<F> intersect_disk(const DiskRow& disk, const V3<F>& origin, const V3<F>& dir,
-                                           const F& t_min) {
+                                           const ShapeQuestion<F>& asked) {
   const V3<F> normal = broadcast3<F>(disk.normal);
   const V3<F> f = broadcast3<F>(disk.center) - origin;
   const F t = dot(f, normal) / dot(dir, normal);
   const V3<F> q = dir * t - f;
   const F radius(disk.radius);
-  const MaskOf<F> hit = (dot(q, q) <= radius * radius) & (t > t_min);
-  if (to_bits(hit) == 0) return {hit, t};
+  const MaskOf<F> hit = (dot(q, q) <= radius * radius) & (t > asked.t_min);
+  if ((to_bits(hit) & asked.bits) == 0) return {from_bits<width_of<F>>(0), t};
   return {hit & is_within_reach(disk.low, disk.high, origin, dir, t), t};
 }
 
@@ -128,13 +136,12 @@ FASTRT_INLINE std::uint32_t odd_band_crossings(const ShapeView& shapes, const Po
   const F most(static_cast<float>(polygon.band_count - 1)), zero(0.0F);
   const F place = max(min((y - F(polygon.band_low)) * F(polygon.band_scale), most), zero);
   const F band = simd::to_float(simd::to_int(place));
-  const MaskOf<F> lanes = from_bits<width_of<F>>(bits);
-  const auto first = static_cast<int>(reduce_min(select(lanes, band, most)));
-  const auto last = static_cast<int>(reduce_max(select(lanes, band, zero)));
+  alignas(64) float bands[width_of<F>];
+  band.store_aligned(bands);
   std::uint32_t odd = 0;
-  for (int b = first; b <= last; ++b) {
-    const std::uint32_t here = to_bits(band == F(static_cast<float>(b))) & bits;
-    if (here == 0) continue;
+  for (std::uint32_t here = 0; bits != 0; bits &= ~here) {
+    const float b = bands[__builtin_ctz(bits)];
+    here = to_bits(band == F(b)) & bits;
     const BandRow& row = shapes.bands[polygon.first_band + static_cast<std::uint32_t>(b)];
     const EdgeRow* const edges = shapes.edges + row.first_edge;
     odd |= odd_crossings(edges, edges + row.edge_count, x, y) & here;
@@ -144,10 +151,11 @@ FASTRT_INLINE std::uint32_t odd_band_crossings(const ShapeView& shapes, const Po
 
 template <class F>
 FASTRT_INLINE ShapeLanes<F> intersect_polygon(const ShapeView& shapes, const PolygonRow& polygon,
-                                              const V3<F>& origin, const V3<F>& dir, const F& t_min) {
+                                              const V3<F>& origin, const V3<F>& dir,
+                                              const ShapeQuestion<F>& asked) {
   const V3<F> normal = broadcast3<F>(polygon.normal);
   const F t = dot(broadcast3<F>(polygon.point) - origin, normal) / dot(dir, normal);
-  MaskOf<F> hit = t > t_min;
+  MaskOf<F> hit = (t > asked.t_min) & (t <= asked.limit) & from_bits<width_of<F>>(asked.bits);
   if (to_bits(hit) != 0) hit = hit & is_within_reach(polygon.low, polygon.high, origin, dir, t);
   if (to_bits(hit) == 0) return {hit, t};
   const F x = axis_of(origin, polygon.axis_x) + t * axis_of(dir, polygon.axis_x);
@@ -170,11 +178,11 @@ FASTRT_INLINE ShapeLanes<F> intersect_plane(const PlaneRow& plane, const V3<F>& 
 template <class F>
 [[gnu::noinline]] static ShapeLanes<F> intersect_shape(const ShapeView& shapes, std::int32_t id,
                                                        const V3<F>& origin, const V3<F>& dir,
-                                                       const F& t_min) noexcept {
-  if (id < shapes.first_disk) return intersect_cone(shapes.cones[id - shapes.first_cone], origin, dir, t_min);
+                                                       const ShapeQuestion<F>& asked) noexcept {
+  if (id < shapes.first_disk) return intersect_cone(shapes.cones[id - shapes.first_cone], origin, dir, asked);
   if (id < shapes.first_polygon)
-    return intersect_disk(shapes.disks[id - shapes.first_disk], origin, dir, t_min);
-  return intersect_polygon(shapes, shapes.polygons[id - shapes.first_polygon], origin, dir, t_min);
+    return intersect_disk(shapes.disks[id - shapes.first_disk], origin, dir, asked);
+  return intersect_polygon(shapes, shapes.polygons[id - shapes.first_polygon], origin, dir, asked);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -12,17 +12,18 @@ struct SphereLanes {
   F t; // meaningful where `hit`; > t_min there unless it is NaN
 };
 
-// The first point of the sphere beyond t_min on the line. The caller checks t < t_max.
+// The first point of the sphere beyond t_min on the line, for the lanes in `asked` (bits); others may be
+// missing. The caller checks t < t_max.
 template <class F>
 FASTRT_INLINE SphereLanes<F> intersect_sphere(const V3<F>& center, const F& radius, const V3<F>& origin,
-                                              const V3<F>& dir, const F& t_min) {
+                                              const V3<F>& dir, const F& t_min, std::uint32_t asked = ~0U) {
   const V3<F> f = origin - center;
   const F a = dot(dir, dir);
   const F b = negate(dot(f, dir));
   const V3<F> l = f + dir * (b / a);
   const F q2 = radius * radius - dot(l, l);
   const MaskOf<F> meets = q2 >= F(0.0F);
-  if (to_bits(meets) == 0) return {meets, F(0.0F)};
+  if ((to_bits(meets) & asked) == 0) return {from_bits<width_of<F>>(0), F(0.0F)};
   const F c = dot(f, f) - radius * radius;
   const F q = b + flip(sqrt(a * q2), sign_bit(b));
   const F t0 = c / q;

@@ -3,6 +3,7 @@
 // tested with one register of rays at a time. Triangles wait until they fill a register (tile_triangles.hpp).
 #pragma once
 
+#include "src/kernels/tile_rectangles.hpp"
 #include "src/kernels/tile_triangles.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -26,20 +27,25 @@ template <bool any, class View>
 FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const BlockRun<SphereBlock>& run,
                             std::uint32_t groups) {
   std::uint32_t touched[leaf_lanes];
-  std::uint32_t some =
-      touch_groups(tile.view.groups, project_spheres(tile.view.frame, run), lanes_of(run), groups, touched);
+  const Rectangles<LeafF> boxes = project_spheres(tile.view.frame, run);
+  std::uint32_t some = touch_groups(tile.view.groups, boxes, lanes_of(run), groups, touched);
+  if (some == 0) return;
+  const StoredRectangles rectangles(boxes);
   for (; some != 0; some &= some - 1) {
     const int lane = __builtin_ctz(some);
     const SphereBlock& block = run.block_of(lane);
     const int i = lane % block_size;
     const V3<PacketF> center = broadcast3<PacketF>(block.x[i], block.y[i], block.z[i]);
     const PacketF radius(block.radius[i]);
+    const LoneRectangle around = rectangles.of(lane);
     for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
       const int g = __builtin_ctz(left);
-      meet_group(tile, g, tile.open[g], block.primitive[i], [&](int ray) -> MetLanes {
-        const SphereLanes<PacketF> lanes =
-            intersect_sphere(center, radius, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
-                             PacketF::load_aligned(tile.rays.t_min + ray));
+      const std::uint32_t rays = rays_in_rectangle(tile.view, tile.points, around, g) & tile.open[g];
+      if (rays == 0) continue;
+      meet_group(tile, g, rays, block.primitive[i], [&](int ray) -> MetLanes {
+        const SphereLanes<PacketF> lanes = intersect_sphere(
+            center, radius, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
+            PacketF::load_aligned(tile.rays.t_min + ray), rays >> (ray % group_size) & register_bits);
         return {lanes.hit, lanes.t};
       });
     }
@@ -93,6 +99,8 @@ template <bool any, class View>
     std::uint32_t touched[leaf_lanes];
     const Rectangles<LeafF> boxes = project_boxes(tile.view.frame, run);
     std::uint32_t some = touch_groups(tile.view.groups, boxes, lanes_of(run), groups, touched);
+    if (some == 0) return;
+    const StoredRectangles rectangles(boxes);
     for (; some != 0; some &= some - 1) {
       const int lane = __builtin_ctz(some);
       const std::int32_t id = run.primitive(lane);
@@ -100,12 +108,17 @@ template <bool any, class View>
         if (id >= 0) waiting.add(id, boxes.near.get(static_cast<std::size_t>(lane)), touched[lane]);
         continue;
       }
+      const LoneRectangle around = rectangles.of(lane);
       for (std::uint32_t left = touched[lane]; left != 0; left &= left - 1) {
         const int g = __builtin_ctz(left);
-        meet_group(tile, g, tile.open[g], id, [&](int ray) -> MetLanes {
-          const ShapeLanes<PacketF> met =
-              intersect_shape(tile.scene.shapes, id, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
-                              PacketF::load_aligned(tile.rays.t_min + ray));
+        const std::uint32_t rays = rays_in_rectangle(tile.view, tile.points, around, g) & tile.open[g] &
+                                   ~rays_that_exclude(tile.rays, g * group_size, id);
+        if (rays == 0) continue;
+        meet_group(tile, g, rays, id, [&](int ray) -> MetLanes {
+          const ShapeLanes<PacketF> met = intersect_shape(
+              tile.scene.shapes, id, load_origin(tile.rays, ray), load_dir(tile.rays, ray),
+              {PacketF::load_aligned(tile.rays.t_min + ray), PacketF::load_aligned(tile.hits.t + ray),
+               rays >> (ray % group_size) & register_bits});
           return {met.hit, met.t};
         });
       }

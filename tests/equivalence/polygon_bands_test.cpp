@@ -49,6 +49,21 @@ TEST(PolygonBands, MakeTheSamePictures) {
   expect_same(shot_of("comb", {comb(40, 1)}));
 }
 
+// In one plane every ray meets them at equal t, in the tree's order: the smallest id counts.
+TEST(CoplanarPolygons, ShowTheFirstOfThem) {
+  Random random(91);
+  SceneBuilder builder;
+  const std::uint32_t some = builder.add_material({});
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 middle(random.uniform(-1, 1), random.uniform(-1, 1), 0);
+    const std::vector<std::vector<Vec3>> contours{
+        star(middle, {0, 0, 1}, random.uniform(0.3F, 0.6F), i % 2 == 0 ? 3 : 20, 0.8F)};
+    builder.add_polygon(contours, some);
+  }
+  const Shot shot{"coplanar", builder.build(), looking({0.3F, 0.2F, 3}, {0, 0, 0}), small_settings(75, 61)};
+  expect_same(shot);
+}
+
 TEST(CancelledFrame, IsBlackWhereNobodyCame) {
   const Shot shot = shot_of("wheel", {star(Vec3(0), Vec3(0, 0, 1), 3, 50, 0.9F)});
   for (const Isa isa : simd_isas()) {
