@@ -94,6 +94,15 @@ FASTRT_INLINE void prepare_axis(LoneColumns& c, int axis, int i, const PacketF& 
   simd::select(as_ints(sign) < PacketI(0), upper, lower).store_aligned(c.near_planes[axis] + i);
 }
 
+// size: of the numbers of the rays and of the boxes that they meet.
+FASTRT_INLINE void prepare_axes(LoneColumns& c, int i, const V3<PacketF>& origin, const V3<PacketF>& dir,
+                                const PacketF& size) {
+  const PacketF padding = PacketF(lone_padding) * size, least = PacketF(least_slope) * largest(dir);
+  prepare_axis(c, 0, i, origin.x, dir.x, padding, least);
+  prepare_axis(c, 1, i, origin.y, dir.y, padding, least);
+  prepare_axis(c, 2, i, origin.z, dir.z, padding, least);
+}
+
 FASTRT_INLINE void prepare_sieve(LoneColumns& c, int i, const V3<PacketF>& origin, const V3<PacketF>& dir,
                                  const PacketF& size) {
   const PacketF x = abs(dir.x), y = abs(dir.y), z = abs(dir.z);
@@ -123,10 +132,7 @@ FASTRT_INLINE void prepare_sieve(LoneColumns& c, int i, const V3<PacketF>& origi
     const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
     const PacketF size = max(largest(origin), PacketF(largest_coordinate));
-    const PacketF padding = PacketF(lone_padding) * size, least = PacketF(least_slope) * largest(dir);
-    prepare_axis(c, 0, i, origin.x, dir.x, padding, least);
-    prepare_axis(c, 1, i, origin.y, dir.y, padding, least);
-    prepare_axis(c, 2, i, origin.z, dir.z, padding, least);
+    prepare_axes(c, i, origin, dir, size);
     prepare_sieve(c, i, origin, dir, size);
   }
   c.ready |= 1U << g;

@@ -52,7 +52,7 @@ FASTRT_INLINE BoxLanes meet_boxes(const LoneRay& ray, const WideNode& node, int 
     return cull_mul_sub(load<N>(columns + own.far_planes[axis]), N(own.inverse[axis]),
                         N(own.far_start[axis]));
   };
-  // The running value goes second, like in intersect_slabs().
+  // The running value goes second: max and min return that one where the other is NaN.
   const N first = max(entry(0), max(entry(1), max(entry(2), N(ray.t_min))));
   const N last = min(exit(0), min(exit(1), min(exit(2), N(ray.bound))));
   return {first, first <= last};

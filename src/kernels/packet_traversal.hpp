@@ -10,28 +10,48 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 // With this many rays left in a subtree or fewer, each follows it alone.
 inline constexpr int lone_ray_limit = widest / 8 + 1;
 
+// How the rays meet the planes across one axis of space; the numbers are those of lone rays (LoneFields).
+struct PacketAxis {
+  PacketF inverse, near_start, far_start;
+  PacketM backwards;
+};
+
 struct Packet {
   V3<PacketF> origin, dir;
-  SlabAxis<PacketF> x, y, z;
+  PacketAxis x, y, z;
   PacketF t_min, t;
   PacketI exclude, primitive;
 };
 
+// What waits: a subtree, and the rays that met its box. Where, matters to each of those that look for the
+// closest hit; to others it is a matter of order alone.
 struct PacketEntry {
   std::uint32_t child;
-  std::uint32_t bits; // the rays that met its box
+  std::uint32_t bits;
   alignas(64) float near[widest];
 };
+struct AnyPacketEntry {
+  std::uint32_t child;
+  std::uint32_t bits;
+  float near; // of the first of them
+};
+
+FASTRT_INLINE PacketAxis load_axis(const LoneColumns& columns, int axis, int first) {
+  const PacketF inverse = PacketF::load_aligned(columns.inverse[axis] + first);
+  return {inverse, PacketF::load_aligned(columns.near_start[axis] + first),
+          PacketF::load_aligned(columns.far_start[axis] + first), inverse < PacketF(0.0F)};
+}
 
 FASTRT_INLINE Packet load_packet(const GeometryView& scene, const RayBatch& rays, const HitBatch& hits,
-                                 int first) {
+                                 LoneColumns& columns, int first) {
+  if ((columns.ready >> first / group_size & 1U) == 0)
+    prepare_group(columns, rays, scene.largest_coordinate, first / group_size);
   Packet p;
   p.origin = load3<PacketF>(rays.origin_x + first, rays.origin_y + first, rays.origin_z + first);
   p.dir = load3<PacketF>(rays.dir_x + first, rays.dir_y + first, rays.dir_z + first);
-  const PacketF padding = padding_of(p.origin, PacketF(scene.largest_coordinate));
-  p.x = slab_axis(p.origin.x, p.dir.x, padding);
-  p.y = slab_axis(p.origin.y, p.dir.y, padding);
-  p.z = slab_axis(p.origin.z, p.dir.z, padding);
+  p.x = load_axis(columns, 0, first);
+  p.y = load_axis(columns, 1, first);
+  p.z = load_axis(columns, 2, first);
   p.t_min = load<PacketF>(rays.t_min + first);
   p.t = load<PacketF>(hits.t + first);
   p.exclude = load<PacketI>(rays.exclude + first);
@@ -58,17 +78,20 @@ FASTRT_INLINE V3<PacketF> vertex(const TriangleBlock& block, int v, int i) {
   return broadcast3<PacketF>(block.x[v][i], block.y[v][i], block.z[v][i]);
 }
 
-// The packet's slab test against a box.
-FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, float low_x, float high_x, float low_y,
-                                          float high_y, float low_z, float high_z) {
-  const PacketF zero(0.0F);
-  // Rays of one packet may point either way, so each lane picks its own planes. The inverse of -0 is -inf, so
-  // its sign is that of the direction's sign bit.
-  const PacketM x = p.x.inverse < zero, y = p.y.inverse < zero, z = p.z.inverse < zero;
-  const PacketF lx(low_x), ux(high_x), ly(low_y), uy(high_y), lz(low_z), uz(high_z);
-  return intersect_slabs(p.x, p.y, p.z, V3<PacketF>{select(x, ux, lx), select(y, uy, ly), select(z, uz, lz)},
-                         V3<PacketF>{select(x, lx, ux), select(y, ly, uy), select(z, lz, uz)}, p.t_min,
-                         depth_bound(p.t));
+// Where the rays are between two planes. Rays of one packet may point either way, so each lane picks its own
+// near plane.
+FASTRT_INLINE SlabLanes<PacketF> meet_slab(const PacketAxis& a, const PacketF& low, const PacketF& high) {
+  return {cull_mul_sub(select(a.backwards, high, low), a.inverse, a.near_start),
+          cull_mul_sub(select(a.backwards, low, high), a.inverse, a.far_start)};
+}
+
+// The packet's slab test against a box, as lone rays do it. bound: depth_bound(p.t).
+FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, const PacketF& bound, float low_x, float high_x,
+                                          float low_y, float high_y, float low_z, float high_z) {
+  const SlabLanes<PacketF> x = meet_slab(p.x, PacketF(low_x), PacketF(high_x)),
+                           y = meet_slab(p.y, PacketF(low_y), PacketF(high_y)),
+                           z = meet_slab(p.z, PacketF(low_z), PacketF(high_z));
+  return {max(x.near, max(y.near, max(z.near, p.t_min))), min(x.far, min(y.far, min(z.far, bound)))};
 }
 
 // The batch that a packet is part of: rays first ..
@@ -100,8 +123,9 @@ template <bool any>
   const ShapeBlock* block = scene.shape_blocks + leaf_first_block(leaf);
   for (const ShapeBlock* const end = block + leaf_blocks(leaf); block != end; ++block)
     for (int i = 0; i < block_size && block->primitive[i] >= 0; ++i) {
-      const SlabLanes<PacketF> slab = meet_box(p, block->low_x[i], block->high_x[i], block->low_y[i],
-                                               block->high_y[i], block->low_z[i], block->high_z[i]);
+      const SlabLanes<PacketF> slab =
+          meet_box(p, depth_bound(p.t), block->low_x[i], block->high_x[i], block->low_y[i], block->high_y[i],
+                   block->low_z[i], block->high_z[i]);
       const std::uint32_t met_box = to_bits(slab.near <= slab.far) & active;
       if (met_box == 0) continue;
       if (is_no_shape(scene, block->primitive[i])) {
@@ -128,7 +152,7 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, const PacketBatch& batch
     p.primitive = met.primitive;
     return;
   }
-  const std::uint32_t first = leaf_first_block(leaf);
+  const std::uint32_t active_bits = to_bits(active), first = leaf_first_block(leaf);
   const std::uint32_t end = first + leaf_blocks(leaf);
   for (std::uint32_t b = first; b != end; ++b)
     for (int i = 0; i < block_size; ++i) {
@@ -138,7 +162,7 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, const PacketBatch& batch
         const V3<PacketF> v0 = vertex(block, 0, i) - p.origin, v1 = vertex(block, 1, i) - p.origin,
                           v2 = vertex(block, 2, i) - p.origin;
         const TriangleLanes<PacketF> lanes =
-            intersect_triangle(v0, v1, v2, p.dir, largest(p.origin), to_bits(active));
+            intersect_triangle(v0, v1, v2, p.dir, largest(p.origin), active_bits);
         const PacketM hit = lanes.inside & active & (lanes.t > p.t_min);
         if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, lanes.t, block.primitive[i]);
       } else {
@@ -146,7 +170,7 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, const PacketBatch& batch
         if (block.primitive[i] < 0) break;
         const SphereLanes<PacketF> lanes =
             intersect_sphere(broadcast3<PacketF>(block.x[i], block.y[i], block.z[i]),
-                             PacketF(block.radius[i]), p.origin, p.dir, p.t_min);
+                             PacketF(block.radius[i]), p.origin, p.dir, p.t_min, active_bits);
         const PacketM hit = lanes.hit & active;
         if (to_bits(hit) != 0) keep_closest(p.t, p.primitive, p.exclude, hit, lanes.t, block.primitive[i]);
       }
@@ -154,22 +178,60 @@ FASTRT_INLINE void meet_leaf(const GeometryView& scene, const PacketBatch& batch
 }
 
 // The packet's slab test against child i of a node.
-FASTRT_INLINE SlabLanes<PacketF> meet_child(const Packet& p, const WideNode& node, int i) {
-  return meet_box(p, node.lower_x[i], node.upper_x[i], node.lower_y[i], node.upper_y[i], node.lower_z[i],
-                  node.upper_z[i]);
+FASTRT_INLINE SlabLanes<PacketF> meet_child(const Packet& p, const PacketF& bound, const WideNode& node,
+                                            int i) {
+  return meet_box(p, bound, node.lower_x[i], node.upper_x[i], node.lower_y[i], node.upper_y[i],
+                  node.lower_z[i], node.upper_z[i]);
 }
 
-FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, std::uint32_t child,
-                                        std::uint32_t bits, const PacketF& near) {
-  alignas(64) float lanes[widest];
-  near.store_aligned(lanes);
-  const int lane = __builtin_ctz(bits);
+// A node's children as the packet meets them; met: those that some ray meets. (All of them first, without
+// branches: which it will be can hardly be foreseen.)
+struct MetChildren {
+  alignas(64) float near[wide_children][widest];
+  std::uint32_t bits[wide_children];
+  std::uint32_t met;
+};
+
+FASTRT_INLINE void meet_children(const Packet& p, const WideNode& node, std::uint32_t active,
+                                 MetChildren& out) {
+  const PacketF bound = depth_bound(p.t);
+  out.met = 0;
+  for (int i = 0; i < wide_children; ++i) {
+    const SlabLanes<PacketF> slab = meet_child(p, bound, node, i);
+    out.bits[i] = to_bits(slab.near <= slab.far) & active;
+    out.met |= static_cast<std::uint32_t>(out.bits[i] != 0) << i;
+    slab.near.store_aligned(out.near[i]);
+  }
+}
+
+// Child i onto the stack, the nearest on top.
+FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, const WideNode& node,
+                                        const MetChildren& c, int i) {
+  const int lane = __builtin_ctz(c.bits[i]);
   PacketEntry* place = top;
-  for (; place != bottom && place[-1].near[lane] < lanes[lane]; --place) *place = place[-1];
-  place->child = child;
-  place->bits = bits;
-  near.store_aligned(place->near);
+  for (; place != bottom && place[-1].near[lane] < c.near[i][lane]; --place) *place = place[-1];
+  place->child = node.child[i];
+  place->bits = c.bits[i];
+  PacketF::load_aligned(c.near[i]).store_aligned(place->near);
   return top + 1;
+}
+
+// The same for rays that any hit will do for.
+FASTRT_INLINE AnyPacketEntry* push_ordered(AnyPacketEntry* top, AnyPacketEntry* bottom, const WideNode& node,
+                                           const MetChildren& c, int i) {
+  const AnyPacketEntry entry{node.child[i], c.bits[i], c.near[i][__builtin_ctz(c.bits[i])]};
+  AnyPacketEntry* place = top;
+  for (; place != bottom && place[-1].near < entry.near; --place) *place = place[-1];
+  *place = entry;
+  return top + 1;
+}
+
+// The rays of an entry that it still matters to.
+FASTRT_INLINE std::uint32_t still_active(const Packet& p, const PacketEntry& entry) {
+  return entry.bits & to_bits(PacketF::load_aligned(entry.near) <= depth_bound(p.t));
+}
+FASTRT_INLINE std::uint32_t still_active(const Packet& p, const AnyPacketEntry& entry) {
+  return entry.bits & to_bits(simd::bool_cast(p.primitive < PacketI(0)));
 }
 
 // The rays in `bits` follow the subtree `child` one by one.
@@ -191,24 +253,24 @@ FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, 
 template <bool any>
 static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
                          LoneColumns& columns, int first) noexcept {
-  Packet p = load_packet(scene, rays, hits, first);
+  using Entry = std::conditional_t<any, AnyPacketEntry, PacketEntry>;
+  Packet p = load_packet(scene, rays, hits, columns, first);
   const std::uint32_t live = to_bits(traceable_lanes(p.origin, p.dir, rays.count - first) & (p.t_min < p.t));
   if (live == 0) return;
-  PacketEntry stack[max_tree_stack];
+  Entry stack[max_tree_stack];
   stack[0].child = scene.root;
   stack[0].bits = live;
-  p.t_min.store_aligned(stack[0].near);
+  if constexpr (!any) p.t_min.store_aligned(stack[0].near);
   std::uint32_t nodes = 0, tests = 0;
-  PacketEntry* top = stack + 1;
+  Entry* top = stack + 1;
+  MetChildren children;
   while (top != stack) {
     --top;
     const std::uint32_t child = top->child;
-    PacketM active = from_bits<widest>(top->bits) & (PacketF::load_aligned(top->near) <= depth_bound(p.t));
-    if constexpr (any) active = active & simd::bool_cast(p.primitive < PacketI(0));
-    const std::uint32_t active_bits = to_bits(active);
+    const std::uint32_t active_bits = still_active(p, *top);
     if (active_bits == 0) continue;
     if (is_leaf(child)) {
-      meet_leaf<any>(scene, {rays, hits, first}, p, active, child);
+      meet_leaf<any>(scene, {rays, hits, first}, p, from_bits<widest>(active_bits), child);
       tests += static_cast<std::uint32_t>(__builtin_popcount(active_bits)) * leaf_blocks(child);
       continue;
     }
@@ -218,12 +280,10 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
     }
     const WideNode& node = scene.nodes[child];
     ++nodes;
-    PacketEntry* const bottom = top;
-    for (int i = 0; i < wide_children && node.child[i] != no_child; ++i) {
-      const SlabLanes<PacketF> slab = meet_child(p, node, i);
-      const std::uint32_t bits = to_bits((slab.near <= slab.far) & active);
-      if (bits != 0) top = push_ordered(top, bottom, node.child[i], bits, slab.near);
-    }
+    meet_children(p, node, active_bits, children);
+    Entry* const bottom = top;
+    for (std::uint32_t met = children.met; met != 0; met &= met - 1)
+      top = push_ordered(top, bottom, node, children, __builtin_ctz(met));
   }
   p.t.store_unaligned(hits.t + first);
   p.primitive.store_unaligned(hits.primitive + first);

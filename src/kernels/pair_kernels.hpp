@@ -57,20 +57,18 @@ static void meet_spheres(const PairColumns& p, std::uint8_t* hits, float* ts) no
 }
 
 static void meet_boxes(const PairColumns& p, std::uint8_t* hits) noexcept {
-  const PacketF zero(0.0F);
+  LoneColumns columns;
   for (std::size_t i = 0; i < p.count; i += widest) {
     const PairRay ray = load_ray(p, i);
     const V3<PacketF> lower = load_primitive(p, 0, i), upper = load_primitive(p, 3, i);
-    const PacketF padding = padding_of(ray.origin, max(largest(lower), largest(upper)));
-    const SlabAxis<PacketF> x = slab_axis(ray.origin.x, ray.dir.x, padding),
-                            y = slab_axis(ray.origin.y, ray.dir.y, padding),
-                            z = slab_axis(ray.origin.z, ray.dir.z, padding);
-    const PacketM nx = x.inverse < zero, ny = y.inverse < zero, nz = z.inverse < zero;
-    const SlabLanes<PacketF> slab = intersect_slabs(
-        x, y, z, {select(nx, upper.x, lower.x), select(ny, upper.y, lower.y), select(nz, upper.z, lower.z)},
-        {select(nx, lower.x, upper.x), select(ny, lower.y, upper.y), select(nz, lower.z, upper.z)}, ray.t_min,
-        PacketF(__builtin_inff()));
-    const std::uint32_t bits = to_bits(slab.near <= slab.far);
+    const PacketF size = max(largest(ray.origin), max(largest(lower), largest(upper)));
+    prepare_axes(columns, 0, ray.origin, ray.dir, size);
+    const SlabLanes<PacketF> x = meet_slab(load_axis(columns, 0, 0), lower.x, upper.x),
+                             y = meet_slab(load_axis(columns, 1, 0), lower.y, upper.y),
+                             z = meet_slab(load_axis(columns, 2, 0), lower.z, upper.z);
+    const PacketF near = max(x.near, max(y.near, max(z.near, ray.t_min))),
+                  far = min(x.far, min(y.far, z.far));
+    const std::uint32_t bits = to_bits(near <= far);
     for (int lane = 0; lane < widest; ++lane) hits[i + static_cast<std::size_t>(lane)] = bits >> lane & 1U;
   }
 }
