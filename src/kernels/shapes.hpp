@@ -53,12 +53,35 @@ FASTRT_INLINE Inside<F> inside_slab(const F& half_height, const F& m, const F& n
           select(level, select(within, none, all), max(a, b))};
 }
 
+// How much farther than its radius a line must pass from a cylinder's axis, so that the test lets it through
+// for certain not: as shares of the radius' square, and of that of the numbers that the test is made of
+// (docs/numerics.md, "Cone, disk, polygon, plane").
+inline constexpr float cylinder_share = 1.0F + 0x1p-6F, cylinder_rounding = 0x1p-28F;
+
+// The lines that pass a cylinder by for certain, without a division; f: origin - center.
+template <class F>
+FASTRT_INLINE MaskOf<F> passes_by(const ConeRow& cone, const V3<F>& axis, const V3<F>& f, const V3<F>& dir) {
+  const F radius2(cone.radius * cone.radius);
+  const V3<F> across{cull_mul_sub(dir.y, axis.z, dir.z * axis.y), cull_mul_sub(dir.z, axis.x, dir.x * axis.z),
+                     cull_mul_sub(dir.x, axis.y, dir.y * axis.x)};
+  const auto square = [](const V3<F>& v) {
+    return cull_mul_add(v.z, v.z, cull_mul_add(v.y, v.y, v.x * v.x));
+  };
+  const F apart = cull_mul_add(f.z, across.z, cull_mul_add(f.y, across.y, f.x * across.x));
+  const F rounding = cull_mul_add(square(dir) * (square(f) + radius2), F(cylinder_rounding), F(1e-30F));
+  const F apart2 = apart * apart;
+  return (apart2 > cull_mul_add(square(across), radius2 * F(cylinder_share), rounding)) &
+         (apart2 < F(__builtin_inff()));
+}
+
 template <class F>
 FASTRT_INLINE ShapeLanes<F> intersect_cone(const ConeRow& cone, const V3<F>& origin, const V3<F>& dir,
                                            const ShapeQuestion<F>& asked) {
   const F zero(0.0F), forever(__builtin_inff()), ever(-__builtin_inff());
   const V3<F> axis = broadcast3<F>(cone.axis);
   const V3<F> f = origin - broadcast3<F>(cone.center);
+  if (cone.slope == 0.0F && (~to_bits(passes_by(cone, axis, f, dir)) & asked.bits) == 0)
+    return {from_bits<width_of<F>>(0), zero};
   const F shift = negate(dot(f, dir)) / dot(dir, dir);
   const V3<F> l = f + dir * shift;
   const F m = dot(l, axis), n = dot(dir, axis);
