@@ -58,11 +58,15 @@ FASTRT_INLINE Waiting next_waiting(LoneSlot& slot) {
 // The same where nothing was put there lately (registers are not filled from stores that are under way), a
 // few entries at a time: after a hit many lie too far.
 FASTRT_INLINE Waiting next_of_old(LoneSlot& slot) {
+#if defined(__AVX2__)
   std::uint32_t within = 0;
   do within = bits_within(slot.top -= waiting_at_once, slot.ray.limit);
   while (within == 0);
   slot.top += 31 - __builtin_clz(within);
   return *slot.top;
+#else
+  return next_waiting(slot);
+#endif
 }
 
 // Puts the slot in the line for what it meets next.

@@ -25,24 +25,22 @@ FASTRT_INLINE Waiting waiting_limit(float bound, float t_min) {
   return static_cast<Waiting>(__builtin_bit_cast(std::uint32_t, bound) | size_bits) << 32U | 0xFFFFFFFFU;
 }
 
-// Entries that are looked at together, and which of them (bits) are no greater than `limit`.
+// Entries that are looked at together where lanes are enough, and which of them (bits) are no greater than
+// `limit`.
 inline constexpr int waiting_at_once = 4;
+#if defined(__AVX2__)
 FASTRT_INLINE std::uint32_t bits_within(const Waiting* entries, Waiting limit) {
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(entries));
 #if defined(__AVX512VL__)
-  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(entries));
   return _mm256_cmple_epu64_mask(all, _mm256_set1_epi64x(static_cast<long long>(limit)));
-#elif defined(__AVX2__)
-  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(entries));
+#else
   const __m256i sign = _mm256_set1_epi64x(static_cast<long long>(Waiting{1} << 63U));
   const __m256i most = _mm256_set1_epi64x(static_cast<long long>(limit ^ Waiting{1} << 63U));
   const __m256i beyond = _mm256_cmpgt_epi64(_mm256_xor_si256(all, sign), most);
   return ~static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(beyond))) & 15U;
-#else
-  std::uint32_t bits = 0;
-  for (int i = 0; i < waiting_at_once; ++i) bits |= static_cast<std::uint32_t>(entries[i] <= limit) << i;
-  return bits;
 #endif
 }
+#endif
 
 // Children of a node are met all at once where eight lanes exist, else in two halves.
 inline constexpr int node_lanes = widest < wide_children ? widest : wide_children;
