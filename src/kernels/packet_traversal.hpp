@@ -30,7 +30,7 @@ struct PacketEntry {
   std::uint32_t bits;
   alignas(64) float near[widest];
 };
-struct AnyPacketEntry {
+struct alignas(16) AnyPacketEntry {
   std::uint32_t child;
   std::uint32_t bits;
   float near; // of the first of them
@@ -219,10 +219,13 @@ FASTRT_INLINE PacketEntry* push_ordered(PacketEntry* top, PacketEntry* bottom, c
 // The same for rays that any hit will do for.
 FASTRT_INLINE AnyPacketEntry* push_ordered(AnyPacketEntry* top, AnyPacketEntry* bottom, const WideNode& node,
                                            const MetChildren& c, int i) {
-  const AnyPacketEntry entry{node.child[i], c.bits[i], c.near[i][__builtin_ctz(c.bits[i])]};
+  const float near = c.near[i][__builtin_ctz(c.bits[i])];
   AnyPacketEntry* place = top;
-  for (; place != bottom && place[-1].near < entry.near; --place) *place = place[-1];
-  *place = entry;
+  for (; place != bottom && place[-1].near < near; --place) *place = place[-1];
+  // With one store, as it is moved: what is read whole must have been written whole, or the reader waits.
+  _mm_store_si128(reinterpret_cast<__m128i*>(place),
+                  _mm_setr_epi32(static_cast<int>(node.child[i]), static_cast<int>(c.bits[i]),
+                                 __builtin_bit_cast(int, near), 0));
   return top + 1;
 }
 

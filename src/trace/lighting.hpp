@@ -79,10 +79,14 @@ FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch
   return to_bits((dot(load_geometric(s, i), to_light) > zero) & (cosine > zero)) & bits;
 }
 
-// The shadow rays of lanes i .., row for row; those not in `bits` can't hit anything. instances: whether the
+// The shadow rays of lanes i .., row for row; those not in `bits` have no room between t_min and t_max, and
+// nothing else of them counts. instances: whether the
 // scene has any.
 FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s, const LightBatch& seen,
                                     std::uint32_t bits, bool instances, int i, RayBatch& rays) {
+  const PathF none(0.0F);
+  none.store_aligned(rays.t_min + i);
+  if (bits == 0) return none.store_aligned(rays.t_max + i);
   const PathV normal = load_geometric(s, i);
   const PathF magnitude = PathF::load_aligned(s.magnitude + i);
   PathF reach(1.0F);
@@ -102,8 +106,6 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
     store3(position, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     store3((load_point(s, i) + normal * offset) - position, rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
   }
-  const PathF none(0.0F);
-  none.store_aligned(rays.t_min + i);
   simd::select(from_bits<widest>(bits), reach, none).store_aligned(rays.t_max + i);
   load<PathI>(s.planar + i).store_aligned(rays.exclude + i);
   if (instances) load<PathI>(s.planar_inner + i).store_aligned(rays.exclude_inner + i);

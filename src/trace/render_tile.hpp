@@ -5,6 +5,7 @@
 
 #include "src/trace/camera_rays.hpp"
 #include "src/trace/whitted.hpp"
+#include "src/trace/whole_tile.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -68,30 +69,6 @@ static void take_rows(const TileJob& job, TileScratch& scratch, TileRayCounts& c
     make_row_rays(job, scratch, camera_rays);
     trace_tree(job, camera_rays, false, scratch, counts);
     for (int row = 0; row < scratch.row_count; ++row) add_row(job, row, scratch);
-  }
-}
-
-// Row for row, where each pixel is in the tile's order.
-struct TileRows {
-  std::uint8_t place[tile_side][tile_side];
-};
-inline constexpr TileRows tile_rows = [] {
-  TileRows rows{};
-  for (int i = 0; i < batch_size; ++i)
-    rows.place[tile_pixel_y(i)][tile_pixel_x(i)] = static_cast<std::uint8_t>(i);
-  return rows;
-}();
-
-// The tile's one sample into the frame, whose edge it does not reach.
-static void write_whole_tile(const TileJob& job, const TileScratch& scratch) noexcept {
-  for (int y = 0; y < tile_side; ++y) {
-    const std::uint8_t* const places = tile_rows.place[y];
-    const long row = frame_pixel(job, places[0]);
-    for (int x = 0; x < tile_side; ++x) {
-      const int i = places[x];
-      put_color(job.rgb, row + x, scratch.radiance_r[i], scratch.radiance_g[i], scratch.radiance_b[i]);
-      job.primitive[row + x] = scratch.first_primitive[i];
-    }
   }
 }
 
