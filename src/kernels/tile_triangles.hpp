@@ -9,7 +9,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // A triangle that covers more groups than this by its rectangle is first held against their corners by its
 // edges.
-inline constexpr int many_groups = 3;
+inline constexpr int many_groups = 4;
 
 // Set-ups and reaches of a run as columns, so that one can be spread over a register.
 struct BlockSetup {
