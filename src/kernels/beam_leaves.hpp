@@ -86,11 +86,13 @@ FASTRT_INLINE void find_pairs(const BeamTraversal<any>& t, const BlockRun<Triang
   found.count = 0;
   found.rays = 0;
   found.triangles = 0;
+  alignas(32) std::int32_t ids[leaf_lanes];
+  primitives_of(run).store_aligned(ids);
   for (; touched != 0; touched &= touched - 1) {
     const auto place = static_cast<std::uint32_t>(__builtin_ctz(touched));
     const int g = static_cast<int>(place / pair_lanes), lane = static_cast<int>(place % pair_lanes);
     const std::uint32_t inside = rays_inside(t.beam.rays, f, lane, g) & rays_of_group(rays, g) &
-                                 ~rays_that_exclude(t.rays, t.first + g * group_size, run.primitive(lane));
+                                 ~rays_that_exclude(t.rays, t.first + g * group_size, ids[lane]);
     found.pairs[found.count] = {place, inside};
     found.count += inside != 0;
     found.rays |= static_cast<std::uint64_t>(inside) << (g * group_size);

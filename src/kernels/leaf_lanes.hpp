@@ -46,6 +46,13 @@ FASTRT_INLINE BlockRun<Block> first_run(const Block* blocks, std::uint32_t leaf)
   return {block, block + (taken - 1), static_cast<int>(taken) * block_size};
 }
 
+// The primitives of all lanes.
+template <class Block>
+FASTRT_INLINE IntsOf<LeafF> primitives_of(const BlockRun<Block>& run) {
+  return as_ints(load_two<LeafF>(reinterpret_cast<const float*>(run.low->primitive),
+                                 reinterpret_cast<const float*>(run.high->primitive)));
+}
+
 // Vertex v of the run's triangles.
 FASTRT_INLINE V3<LeafF> load_vertices(const BlockRun<TriangleBlock>& run, int v) {
   return {load_two<LeafF>(run.low->x[v], run.high->x[v]), load_two<LeafF>(run.low->y[v], run.high->y[v]),

@@ -79,8 +79,7 @@ FASTRT_INLINE std::uint32_t triangles_around(const LoneRay& ray, const BlockRun<
   }
   const LeafF p = cull_mul_sub(x[1], y[2], y[1] * x[2]), q = cull_mul_sub(x[2], y[0], y[2] * x[0]),
               r = cull_mul_sub(x[0], y[1], y[0] * x[1]);
-  const auto ids = as_ints(load_two<LeafF>(reinterpret_cast<const float*>(run.low->primitive),
-                                           reinterpret_cast<const float*>(run.high->primitive)));
+  const auto ids = primitives_of(run);
   const std::uint32_t others = to_bits(simd::bool_cast(ids != IntsOf<LeafF>(ray.rays->exclude[ray.index])));
   return others & to_bits((min(p, min(q, r)) >= LeafF(-margin)) | (max(p, max(q, r)) <= LeafF(margin)));
 }
