@@ -36,23 +36,13 @@ FASTRT_INLINE std::uint32_t leaf_pairs(const WideNode& node) {
   return pairs;
 }
 
-// Extents of a node's boxes: across the beam, and depths from 0 on.
-struct ChildExtents {
-  alignas(32) float u0[wide_children], u1[wide_children], v0[wide_children], v1[wide_children],
-      begin[wide_children], end[wide_children];
-
-  [[gnu::always_inline]] inline LoneExtents of(std::uint32_t i) const {
-    return {u0[i], u1[i], v0[i], v1[i], begin[i], end[i]};
-  }
-};
-
 // Pairs of a box and a group, bit 4 * box + group: those that touch, and those where the box is small beside
 // the group.
 struct TouchedPairs {
   std::uint32_t touched, small;
 };
 
-FASTRT_INLINE TouchedPairs touch_pairs(const Beam& beam, const WideNode& node, ChildExtents& out) {
+FASTRT_INLINE TouchedPairs touch_pairs(const Beam& beam, const WideNode& node, StoredExtents& out) {
   const LeafF padding(beam.padding);
   TouchedPairs pairs{0, 0};
   for (int half = 0; half < wide_children; half += node_lanes) {
@@ -60,12 +50,7 @@ FASTRT_INLINE TouchedPairs touch_pairs(const Beam& beam, const WideNode& node, C
     Extents<LeafF> e{axis_extent(columns, beam.x, padding), axis_extent(columns, beam.y, padding),
                      in_depth(beam, axis_extent(columns, beam.z, padding))};
     e.w.low = max(e.w.low, LeafF(0.0F));
-    e.u.low.store_aligned(out.u0 + half);
-    e.u.high.store_aligned(out.u1 + half);
-    e.v.low.store_aligned(out.v0 + half);
-    e.v.high.store_aligned(out.v1 + half);
-    e.w.low.store_aligned(out.begin + half);
-    e.w.high.store_aligned(out.end + half);
+    out.store(e, half);
     const Grouped boxes = for_groups(e);
     const GroupedF size = for_groups(LeafF(2.0F) * ((e.u.high - e.u.low) * (e.v.high - e.v.low)));
     for (int step = 0; step < group_steps; ++step) {
@@ -80,7 +65,7 @@ FASTRT_INLINE TouchedPairs touch_pairs(const Beam& beam, const WideNode& node, C
 // Puts the children of a node that some of `rays` reach onto the stack; returns the new top.
 FASTRT_INLINE int push_children(const Beam& beam, const WideNode& node, std::uint64_t rays, BeamStack& stack,
                                 int top) {
-  ChildExtents extents;
+  StoredExtents extents;
   const TouchedPairs pairs = touch_pairs(beam, node, extents);
   const std::uint32_t touched = pairs.touched & groups_with(rays) * 0x11111111U;
   ReachedRays reached(touched, rays);

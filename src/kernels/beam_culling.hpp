@@ -129,6 +129,25 @@ struct LoneExtents {
   float u0, u1, v0, v1, begin, end; // depths: 0 or more
 };
 
+// Extents of the boxes of a node or of a run, as columns: across the beam, and depths from 0 on.
+struct StoredExtents {
+  alignas(32) float u0[wide_children], u1[wide_children], v0[wide_children], v1[wide_children],
+      begin[wide_children], end[wide_children];
+
+  // A register of them, from box `first` on. Depths: 0 or more.
+  [[gnu::always_inline]] inline void store(const Extents<LeafF>& e, int first) {
+    e.u.low.store_aligned(u0 + first);
+    e.u.high.store_aligned(u1 + first);
+    e.v.low.store_aligned(v0 + first);
+    e.v.high.store_aligned(v1 + first);
+    e.w.low.store_aligned(begin + first);
+    e.w.high.store_aligned(end + first);
+  }
+  [[gnu::always_inline]] inline LoneExtents of(std::uint32_t i) const {
+    return {u0[i], u1[i], v0[i], v1[i], begin[i], end[i]};
+  }
+};
+
 // The rays of group g that can touch a box.
 FASTRT_INLINE std::uint32_t touch_rays(const BeamRays& rays, const LoneExtents& e, int g) {
   const PacketF begin(e.begin), end(e.end);

@@ -186,24 +186,6 @@ FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<SphereBlock>& 
   }
 }
 
-// Extents as columns, for looking at single rays.
-struct LoneBoxes {
-  alignas(32) float u0[leaf_lanes], u1[leaf_lanes], v0[leaf_lanes], v1[leaf_lanes], begin[leaf_lanes],
-      end[leaf_lanes];
-
-  [[gnu::always_inline]] inline explicit LoneBoxes(const Extents<LeafF>& e) {
-    e.u.low.store_aligned(u0);
-    e.u.high.store_aligned(u1);
-    e.v.low.store_aligned(v0);
-    e.v.high.store_aligned(v1);
-    max(e.w.low, LeafF(0.0F)).store_aligned(begin);
-    e.w.high.store_aligned(end);
-  }
-  [[gnu::always_inline]] inline LoneExtents of(int lane) const {
-    return {u0[lane], u1[lane], v0[lane], v1[lane], begin[lane], end[lane]};
-  }
-};
-
 // The extents of a run's shapes: those of their boxes.
 FASTRT_INLINE Extents<LeafF> extents_of_shapes(const Beam& beam, const BlockRun<ShapeBlock>& run) {
   const V3<LeafF> low = load_low(run), high = load_high(run);
@@ -245,7 +227,8 @@ template <bool any>
   const Extents<LeafF> e = extents_of_shapes(t.beam, run);
   const std::uint32_t touched = touch_boxes(t.beam, e) & places_of(rays);
   if (touched == 0) return;
-  const LoneBoxes boxes(e);
+  StoredExtents boxes;
+  boxes.store({e.u, e.v, {max(e.w.low, LeafF(0.0F)), e.w.high}}, 0);
   std::uint64_t visitors[leaf_lanes] = {}; // of instances
   std::uint32_t instances = 0;
   for (int g = 0; g < beam_groups; ++g) {
@@ -261,8 +244,8 @@ template <bool any>
         instances |= 1U << lane;
         continue;
       }
-      const std::uint32_t asked = touch_rays(t.beam.rays, boxes.of(lane), g) & group &
-                                  ~rays_that_exclude(t.rays, t.first + g * group_size, id);
+      const std::uint32_t asked = touch_rays(t.beam.rays, boxes.of(static_cast<std::uint32_t>(lane)), g) &
+                                  group & ~rays_that_exclude(t.rays, t.first + g * group_size, id);
       if (asked == 0) continue;
       changed |= meet_beam_group(t, g, asked, id, [&](int i) -> MetLanes {
         const ShapeLanes<PacketF> met =

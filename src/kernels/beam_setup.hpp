@@ -206,7 +206,7 @@ FASTRT_INLINE bool sees_too_much(const GeometryView& scene, const Beam& beam) {
                    GroupF::load_aligned(beam.groups.slope_y1) - GroupF::load_aligned(beam.groups.slope_y0);
   const Mask<beam_groups> used = width >= GroupF(0.0F);
   const float area = simd::hadd(select(used, width * height, GroupF(0.0F)));
-  return area * static_cast<float>(scene.only_triangles) >
+  return area * static_cast<float>(scene.triangle_count) >
          most_in_view * static_cast<float>(__builtin_popcount(to_bits(used)));
 }
 
@@ -247,7 +247,7 @@ FASTRT_INLINE BeamRest make_beam(const GeometryView& scene, const RayBatch& rays
   set_depth(beam, count, depth);
   for (int g = 0; g < count / group_size; ++g) bound_group(beam, g);
   for (int g = count / group_size; g < beam_groups; ++g) leave_out_group(beam, g);
-  if (sees_too_much(scene, beam)) return {all & ~live, live};
+  if (scene.only_triangles != 0 && sees_too_much(scene, beam)) return {all & ~live, live};
   beam.depth = depth;
   beam.live = live;
   return {all & ~live, 0};

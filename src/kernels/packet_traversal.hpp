@@ -222,10 +222,7 @@ FASTRT_INLINE AnyPacketEntry* push_ordered(AnyPacketEntry* top, AnyPacketEntry* 
   const float near = c.near[i][__builtin_ctz(c.bits[i])];
   AnyPacketEntry* place = top;
   for (; place != bottom && place[-1].near < near; --place) *place = place[-1];
-  // With one store, as it is moved: what is read whole must have been written whole, or the reader waits.
-  _mm_store_si128(reinterpret_cast<__m128i*>(place),
-                  _mm_setr_epi32(static_cast<int>(node.child[i]), static_cast<int>(c.bits[i]),
-                                 __builtin_bit_cast(int, near), 0));
+  store_together(node.child[i], c.bits[i], __builtin_bit_cast(std::uint32_t, near), 0, place);
   return top + 1;
 }
 

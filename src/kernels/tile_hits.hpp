@@ -90,7 +90,7 @@ FASTRT_INLINE void meet_group(TileTraversal<any, View>& tile, int g, std::uint32
   tile.tests += static_cast<std::uint32_t>(__builtin_popcount(bits));
   std::uint32_t changed = 0;
   for (int k = 0; k < group_size; k += widest) {
-    if (widest < group_size && (bits >> k & ((1U << (widest - 1)) * 2U - 1U)) == 0) continue;
+    if (widest < group_size && (bits >> k & register_bits) == 0) continue;
     const int i = g * group_size + k;
     const auto [hit, t] = meet(i);
     const PacketM counted = hit & from_bits<widest>(bits >> k);
@@ -98,6 +98,16 @@ FASTRT_INLINE void meet_group(TileTraversal<any, View>& tile, int g, std::uint32
     changed |= keep_hits(tile, i, counted, t, primitive) << k;
   }
   if (changed != 0) shorten_group(tile, g, changed);
+}
+
+// Of the 16 rays from row `first` on those that a primitive is excluded for: often it is the surface that
+// they leave or go to, which all of them would be tested against.
+FASTRT_INLINE std::uint32_t rays_that_exclude(const RayBatch& rays, int first, std::int32_t primitive) {
+  const PacketI id(primitive);
+  std::uint32_t bits = 0;
+  for (int k = 0; k < group_size; k += widest)
+    bits |= to_bits(simd::bool_cast(PacketI::load_aligned(rays.exclude + first + k) == id)) << k;
+  return bits;
 }
 
 struct MetLanes {

@@ -42,14 +42,6 @@ FASTRT_INLINE float order_of(const WideNode& node, float near, int child) {
   return any ? -static_cast<float>(node.size[child]) : near;
 }
 
-// With one store: entries are moved as a whole, and what is read whole must have been written whole, or the
-// reader waits.
-FASTRT_INLINE void store_entry(const TileEntry& e, TileEntry* place) {
-  _mm_store_si128(reinterpret_cast<__m128i*>(place),
-                  _mm_setr_epi32(static_cast<int>(e.child), static_cast<int>(e.groups),
-                                 __builtin_bit_cast(int, e.near), __builtin_bit_cast(int, e.order)));
-}
-
 // Puts the children that were touched onto the stack.
 template <bool any>
 FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode& node,
@@ -61,7 +53,8 @@ FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode
     const float order = order_of<any>(node, c.near[i], i);
     TileEntry* place = top++;
     for (; place != bottom && place[-1].order < order; --place) *place = place[-1];
-    store_entry({node.child[i], c.groups[i], c.near[i], order}, place);
+    store_together(node.child[i], c.groups[i], __builtin_bit_cast(std::uint32_t, c.near[i]),
+                   __builtin_bit_cast(std::uint32_t, order), place);
   }
   return top;
 }

@@ -12,12 +12,12 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 inline constexpr int many_groups = 4;
 
 // Set-ups and reaches of a run as columns, so that one can be spread over a register.
-struct BlockSetup {
+struct RunSetup {
   alignas(64) float columns[19][widest];
 };
 
-FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<PacketF>& s, const TriangleReach<PacketF>& r) {
-  BlockSetup out;
+FASTRT_INLINE RunSetup store_setup(const TriangleSetup<PacketF>& s, const TriangleReach<PacketF>& r) {
+  RunSetup out;
   store3(s.edge_a, out.columns[0], out.columns[1], out.columns[2]);
   store3(s.edge_b, out.columns[3], out.columns[4], out.columns[5]);
   store3(s.edge_c, out.columns[6], out.columns[7], out.columns[8]);
@@ -28,7 +28,7 @@ FASTRT_INLINE BlockSetup store_setup(const TriangleSetup<PacketF>& s, const Tria
   return out;
 }
 
-FASTRT_INLINE V3<PacketF> spread(const BlockSetup& s, int column, int i) {
+FASTRT_INLINE V3<PacketF> spread(const RunSetup& s, int column, int i) {
   return broadcast3<PacketF>(s.columns[column][i], s.columns[column + 1][i], s.columns[column + 2][i]);
 }
 
@@ -65,16 +65,6 @@ struct MetPair {
   std::int32_t triangle, group;
   std::uint32_t rays;
 };
-
-// Of the 16 rays from row `first` on those that a primitive is excluded for: often it is the surface that
-// they leave or go to, which all of them would be tested against.
-FASTRT_INLINE std::uint32_t rays_that_exclude(const RayBatch& rays, int first, std::int32_t primitive) {
-  const PacketI id(primitive);
-  std::uint32_t bits = 0;
-  for (int k = 0; k < group_size; k += widest)
-    bits |= to_bits(simd::bool_cast(PacketI::load_aligned(rays.exclude + first + k) == id)) << k;
-  return bits;
-}
 
 // What the edges of a run's triangles let through of the groups that they touch: act(triangle, group, rays).
 // First all triangles against their groups' corners, then all pairs against the rays, then what is left:
@@ -113,13 +103,13 @@ FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const Tri
 
 // The triangles of a run in `some` against the groups that they touch, all rays from one origin.
 template <bool any>
-FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const TriangleRun& run, const BlockSetup& block,
+FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const TriangleRun& run, const RunSetup& stored,
                                     const EdgeLines& lines, std::uint32_t some,
                                     const std::uint32_t* touched) {
   for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
-    const TriangleSetup<PacketF> setup{spread(block, 0, i), spread(block, 3, i), spread(block, 6, i),
-                                       spread(block, 9, i), PacketF(block.columns[12][i])};
-    const auto reach = [&] { return TriangleReach<PacketF>{spread(block, 13, i), spread(block, 16, i)}; };
+    const TriangleSetup<PacketF> setup{spread(stored, 0, i), spread(stored, 3, i), spread(stored, 6, i),
+                                       spread(stored, 9, i), PacketF(stored.columns[12][i])};
+    const auto reach = [&] { return TriangleReach<PacketF>{spread(stored, 13, i), spread(stored, 16, i)}; };
     meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
       const TriangleLanes<PacketF> lanes = intersect_triangle(
           setup, load_dir(tile.rays, ray), rays >> (ray % group_size) & register_bits, reach);
@@ -170,7 +160,7 @@ FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const TriangleRun& run) {
   }
   const TriangleSetup<PacketF> setup = set_up_triangle(a, b, c);
   lines_from_setup(f, setup, reach, lines);
-  const BlockSetup stored = store_setup(setup, reach);
+  const RunSetup stored = store_setup(setup, reach);
   meet_from_origin(tile, run, stored, lines, some, touched);
 }
 

@@ -141,6 +141,14 @@ FASTRT_INLINE F load_quads(const float* const (&from)[width_of<F> / 4]) {
   if constexpr (width_of<F> == 4) return F::load_unaligned(from[0]);
 }
 
+// Four words as one; `to` is aligned. What is soon read as a whole must be written as a whole, or the reader
+// waits until the parts have reached the cache.
+FASTRT_INLINE void store_together(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
+                                  void* to) {
+  _mm_store_si128(static_cast<__m128i*>(to), _mm_setr_epi32(static_cast<int>(a), static_cast<int>(b),
+                                                            static_cast<int>(c), static_cast<int>(d)));
+}
+
 // min, max, select and abs of batches are xsimd's own, found by argument-dependent lookup. min and max give
 // the second operand when one is NaN, like minps; docs/numerics.md builds on it.
 

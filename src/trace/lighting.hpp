@@ -86,7 +86,10 @@ FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s
                                     std::uint32_t bits, bool instances, int i, RayBatch& rays) {
   const PathF none(0.0F);
   none.store_aligned(rays.t_min + i);
-  if (bits == 0) return none.store_aligned(rays.t_max + i);
+  if (bits == 0) {
+    none.store_aligned(rays.t_max + i);
+    return;
+  }
   const PathV normal = load_geometric(s, i);
   const PathF magnitude = PathF::load_aligned(s.magnitude + i);
   PathF reach(1.0F);

@@ -103,7 +103,8 @@ struct GeometryView {
   float largest_coordinate;     // of any box in the tree
   std::uint32_t culls;          // 0: the boxes are boundless, and every ray is to meet every primitive
   std::uint32_t has_triangles;  // some leaf holds triangles
-  std::uint32_t only_triangles; // how many, about, where leaves hold nothing else; otherwise 0
+  std::uint32_t only_triangles; // no leaf holds anything else
+  std::uint32_t triangle_count; // of those in leaves; whole blocks are counted
 };
 
 // A material as the shading reads it; the names are those of docs/numerics.md.
