@@ -11,8 +11,10 @@ namespace fastrt::bench {
 
 Model read_model(const std::string& argument) {
   if (!std::filesystem::exists(argument)) return {argument, generated_scene(argument)};
+  LoadOptions options;
+  options.sidecar = false;
   Diagnostics diagnostics;
-  return {std::filesystem::path(argument).stem().string(), load_scene(argument, {}, diagnostics)};
+  return {std::filesystem::path(argument).stem().string(), load_scene(argument, options, diagnostics)};
 }
 
 View view_of(const Model& model, const Aabb& bounds, std::optional<bool> inside) {
