@@ -4,6 +4,7 @@
 #include "src/trace/tracer_parts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace fastrt {
 namespace {
@@ -26,8 +27,10 @@ std::size_t count_copies(const PolygonRow& polygon, const EdgeRow* edges) {
   return copies;
 }
 
-// Into as many bands as the edges' lengths allow; none if that is fewer than two.
-void choose_bands(const EdgeRow* edges, PolygonRow& polygon) {
+// Into as many bands as the edges' lengths allow; none if that is fewer than two. Returns how many copies of
+// edges the bands hold.
+std::size_t choose_bands(const EdgeRow* edges, PolygonRow& polygon) {
+  if (polygon.edge_count < least_edges) return 0;
   float low = edges->low, high = edges->high;
   for (const EdgeRow* edge = edges; edge != edges + polygon.edge_count; ++edge) {
     low = std::min(low, edge->low);
@@ -38,36 +41,46 @@ void choose_bands(const EdgeRow* edges, PolygonRow& polygon) {
     polygon.band_count = count;
     polygon.band_scale = static_cast<float>(count) / (high - low);
     if (!(polygon.band_scale > 0.0F && polygon.band_scale < infinity)) break;
-    if (count_copies(polygon, edges) <= most_copies * polygon.edge_count) return;
+    const std::size_t copies = count_copies(polygon, edges);
+    if (copies <= most_copies * polygon.edge_count) return copies;
   }
   polygon.band_count = 0;
+  return 0;
 }
 
-void fill_bands(const PolygonRow& polygon, ShapeRows& rows) {
-  const std::size_t first_edge = rows.edges.size();
-  const std::size_t copies = count_copies(polygon, rows.edges.data() + polygon.first_edge);
-  rows.edges.resize(first_edge + copies);
+// The polygon's bands, which are empty yet, with edges from rows.edges[next] on. Returns where these end.
+std::uint32_t fill_bands(const PolygonRow& polygon, std::uint32_t next, ShapeRows& rows) {
   const EdgeRow* const edges = rows.edges.data() + polygon.first_edge;
-  auto next = static_cast<std::uint32_t>(first_edge);
-  for (std::uint32_t band = 0; band < polygon.band_count; ++band) {
-    const std::uint32_t begin = next;
-    for (std::uint32_t i = 0; i < polygon.edge_count; ++i)
-      if (band_of(polygon, edges[i].low) <= band && band <= band_of(polygon, edges[i].high))
-        rows.edges[next++] = edges[i];
-    rows.bands.push_back({begin, next - begin});
+  BandRow* const bands = rows.bands.data() + polygon.first_band;
+  const auto for_each_copy = [&](const auto& use) {
+    for (const EdgeRow* edge = edges; edge != edges + polygon.edge_count; ++edge)
+      for (std::uint32_t band = band_of(polygon, edge->low); band <= band_of(polygon, edge->high); ++band)
+        use(bands[band], *edge);
+  };
+  for_each_copy([](BandRow& band, const EdgeRow&) { ++band.edge_count; });
+  for (BandRow* band = bands; band != bands + polygon.band_count; ++band) {
+    band->first_edge = next;
+    next += std::exchange(band->edge_count, 0);
   }
+  for_each_copy(
+      [&](BandRow& band, const EdgeRow& edge) { rows.edges[band.first_edge + band.edge_count++] = edge; });
+  return next;
 }
 
 } // namespace
 
 void add_bands(ShapeRows& rows) {
+  auto next = static_cast<std::uint32_t>(rows.edges.size());
+  std::size_t copies = 0;
+  std::uint32_t bands = 0;
   for (PolygonRow& polygon : rows.polygons) {
-    if (polygon.edge_count < least_edges) continue;
-    choose_bands(rows.edges.data() + polygon.first_edge, polygon);
-    if (polygon.band_count == 0) continue;
-    polygon.first_band = static_cast<std::uint32_t>(rows.bands.size());
-    fill_bands(polygon, rows);
+    copies += choose_bands(rows.edges.data() + polygon.first_edge, polygon);
+    polygon.first_band = std::exchange(bands, bands + polygon.band_count);
   }
+  rows.edges.resize(rows.edges.size() + copies);
+  rows.bands.resize(bands, BandRow{0, 0});
+  for (const PolygonRow& polygon : rows.polygons)
+    if (polygon.band_count != 0) next = fill_bands(polygon, next, rows);
 }
 
 } // namespace fastrt
