@@ -94,7 +94,7 @@ template <bool any>
       for (int g = 0; g < batch_groups; ++g) count = list_rays(way.of_group[g], g * group_size, alone, count);
     }
   }
-  trace_lone_rays<any>(scene, {rays, hits, columns, scene.root, alone, alone + count});
+  trace_lone_rays<any>(scene, {rays, hits, columns, scene.root, nullptr, alone, alone + count});
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

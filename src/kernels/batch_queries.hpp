@@ -31,9 +31,9 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 template <bool any>
 FASTRT_INLINE void trace_packets(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                                 LoneColumns& columns, int first, int count) {
+                                 LoneColumns& columns, LoneLater& later, int first, int count) {
   for (int i = first; i < first + count && i < rays.count; i += widest)
-    trace_packet<any>(scene, rays, hits, columns, i);
+    trace_packet<any>(scene, {rays, hits, columns, later, i});
 }
 
 // Neighbouring rays: as beams, and where they point apart, after them in other ways if leaves hold triangles
@@ -43,6 +43,8 @@ template <bool any>
 static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
                         LoneColumns& columns) noexcept {
   const bool beams = !any || scene.has_triangles != 0;
+  LoneLater later;
+  clear(later);
   RayBits apart{};
   std::uint64_t some = 0;
   std::uint8_t alone[batch_size];
@@ -53,7 +55,7 @@ static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatc
     const BeamRest rest =
         beams ? trace_beam<any>(scene, rays, hits, columns, first, count) : BeamRest{~std::uint64_t{0}, 0};
     if (scene.only_triangles == 0) {
-      if (rest.apart != 0) trace_packets<any>(scene, rays, hits, columns, first, count);
+      if (rest.apart != 0) trace_packets<any>(scene, rays, hits, columns, later, first, count);
       continue;
     }
     some |= rest.apart | rest.alone;
@@ -61,7 +63,17 @@ static void trace_alike(const GeometryView& scene, const RayBatch& rays, HitBatc
     for (int g = 0; g < count / group_size; ++g)
       apart.of_group[first / group_size + g] = rays_of_group(rest.apart, g);
   }
+  trace_later<any>(scene, rays, hits, columns, later);
   if (some != 0) trace_apart<any>(scene, rays, apart, hits, columns, alone, alone_count);
+}
+
+template <bool any>
+[[gnu::noinline]] static void trace_all_packets(const GeometryView& scene, const RayBatch& rays,
+                                                HitBatch& hits, LoneColumns& columns) noexcept {
+  LoneLater later;
+  clear(later);
+  trace_packets<any>(scene, rays, hits, columns, later, 0, rays.count);
+  trace_later<any>(scene, rays, hits, columns, later);
 }
 
 template <bool any>
@@ -72,7 +84,7 @@ static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch
   LoneColumns columns;
   columns.ready = 0;
   if (scene.culls == 0)
-    trace_packets<any>(scene, rays, hits, columns, 0, rays.count);
+    trace_all_packets<any>(scene, rays, hits, columns);
   else if (rays.shape == BatchShape::any)
     trace_rays_alone<any>(scene, rays, hits, columns);
   else

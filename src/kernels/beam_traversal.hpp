@@ -17,7 +17,7 @@ FASTRT_INLINE void go_on_alone(BeamTraversal<any>& t, std::uint32_t child, std::
   int count = 0;
   for (std::uint64_t bits = rays; bits != 0; bits &= bits - 1)
     which[count++] = static_cast<std::uint8_t>(t.first + __builtin_ctzll(bits));
-  trace_lone_rays<any>(t.scene, {t.rays, t.hits, t.columns, child, which, which + count});
+  trace_lone_rays<any>(t.scene, {t.rays, t.hits, t.columns, child, nullptr, which, which + count});
   for (int g = 0; g < beam_groups; ++g) {
     std::uint32_t found = 0;
     for (std::uint32_t bits = rays_of_group(rays, g); bits != 0; bits &= bits - 1) {

@@ -4,6 +4,7 @@
 // it says in which line the ray is put.
 #pragma once
 
+#include "src/kernels/lone_later.hpp"
 #include "src/kernels/lone_ray.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -20,7 +21,7 @@ struct LoneSlot {
   Waiting* top;         // above what waits
   std::uint32_t around; // triangles of the leaf that are left to test (bits)
   MetBoxes boxes;
-  Waiting stack[waiting_at_once + max_tree_stack + wide_children];
+  Waiting stack[waiting_at_once + most_later + max_tree_stack + wide_children];
 };
 
 enum LonePlace : std::uint32_t { at_node, at_leaf, at_end, lone_places };

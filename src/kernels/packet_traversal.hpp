@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A packet of as many rays as a register has lanes through the wide tree: one child's box against all rays,
-// one primitive against all rays. A packet that has fallen apart goes on ray by ray.
+// one primitive against all rays. Where a packet has fallen apart, its rays go on alone, after all packets.
 #pragma once
 
 #include "src/kernels/ray_traversal.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// With this many rays left in a subtree or fewer, each follows it alone.
-inline constexpr int lone_ray_limit = widest / 8 + 1;
+// With this many rays left in a subtree or fewer, each is to follow it alone, after the packets.
+inline constexpr int lone_ray_limit = widest / 4;
 
 // How the rays meet the planes across one axis of space; the numbers are those of lone rays (LoneFields).
 struct PacketAxis {
@@ -94,10 +94,12 @@ FASTRT_INLINE SlabLanes<PacketF> meet_box(const Packet& p, const PacketF& bound,
   return {max(x.near, max(y.near, max(z.near, p.t_min))), min(x.far, min(y.far, min(z.far, bound)))};
 }
 
-// The batch that a packet is part of: rays first ..
+// The batch that a packet is part of: rays first .. first + widest - 1. What it puts off is traced later.
 struct PacketBatch {
   const RayBatch& rays;
   HitBatch& hits;
+  LoneColumns& columns;
+  LoneLater& later;
   int first;
 };
 
@@ -234,26 +236,33 @@ FASTRT_INLINE std::uint32_t still_active(const Packet& p, const AnyPacketEntry& 
   return entry.bits & to_bits(simd::bool_cast(p.primitive < PacketI(0)));
 }
 
-// The rays in `bits` follow the subtree `child` one by one.
-template <bool any>
-FASTRT_INLINE void go_on_alone(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                               LoneColumns& columns, int first, std::uint32_t child, std::uint32_t bits,
-                               Packet& p) {
-  p.t.store_unaligned(hits.t + first);
-  p.primitive.store_unaligned(hits.primitive + first);
-  std::uint8_t which[widest];
-  int count = 0;
-  for (; bits != 0; bits &= bits - 1) which[count++] = static_cast<std::uint8_t>(first + __builtin_ctz(bits));
-  trace_lone_rays<any>(scene, {rays, hits, columns, child, which, which + count});
-  p.t = load<PacketF>(hits.t + first);
-  p.primitive = load<PacketI>(hits.primitive + first);
+// Where the ray in a lane meets the entry's box, as far as is known.
+FASTRT_INLINE float near_of(const PacketEntry& entry, int lane) { return entry.near[lane]; }
+FASTRT_INLINE float near_of(const AnyPacketEntry&, int) { return 0.0F; }
+
+// The rays in `bits` are to follow the entry's subtree alone. (Leaves are met at once: what lies behind their
+// hits need not be looked at.)
+template <bool any, class Entry>
+FASTRT_INLINE void go_on_alone(const GeometryView& scene, const PacketBatch& batch, const Entry& entry,
+                               std::uint32_t bits, Packet& p) {
+  bool room = true;
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    room &= put_off(batch.later, batch.first + lane, entry.child, near_of(entry, lane));
+  }
+  if (room) return;
+  p.t.store_unaligned(batch.hits.t + batch.first);
+  p.primitive.store_unaligned(batch.hits.primitive + batch.first);
+  trace_later<any>(scene, batch.rays, batch.hits, batch.columns, batch.later);
+  p.t = load<PacketF>(batch.hits.t + batch.first);
+  p.primitive = load<PacketI>(batch.hits.primitive + batch.first);
 }
 
-// Rays first .. first + widest - 1 of the batch, as one packet.
+// A packet of the batch. What it puts off is still to be traced.
 template <bool any>
-static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                         LoneColumns& columns, int first) noexcept {
+static void trace_packet(const GeometryView& scene, const PacketBatch& batch) noexcept {
   using Entry = std::conditional_t<any, AnyPacketEntry, PacketEntry>;
+  const auto& [rays, hits, columns, later, first] = batch;
   Packet p = load_packet(scene, rays, hits, columns, first);
   const std::uint32_t live = to_bits(traceable_lanes(p.origin, p.dir, rays.count - first) & (p.t_min < p.t));
   if (live == 0) return;
@@ -270,12 +279,12 @@ static void trace_packet(const GeometryView& scene, const RayBatch& rays, HitBat
     const std::uint32_t active_bits = still_active(p, *top);
     if (active_bits == 0) continue;
     if (is_leaf(child)) {
-      meet_leaf<any>(scene, {rays, hits, first}, p, from_bits<widest>(active_bits), child);
+      meet_leaf<any>(scene, batch, p, from_bits<widest>(active_bits), child);
       tests += static_cast<std::uint32_t>(__builtin_popcount(active_bits)) * leaf_blocks(child);
       continue;
     }
     if (__builtin_popcount(active_bits) <= lone_ray_limit) {
-      go_on_alone<any>(scene, rays, hits, columns, first, child, active_bits, p);
+      go_on_alone<any>(scene, batch, *top, active_bits, p);
       continue;
     }
     const WideNode& node = scene.nodes[child];

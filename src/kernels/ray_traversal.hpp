@@ -74,11 +74,21 @@ struct LoneQueue {
   const RayBatch& rays;
   HitBatch& hits;
   LoneColumns& columns;
-  std::uint32_t start; // the subtree that they go through
+  std::uint32_t start; // the subtree that they go through ..
+  LoneLater* later;    // .. unless this holds subtrees of each
   const std::uint8_t* next;
   const std::uint8_t* end; // of their places in the batch
 };
 
+// What was put off for the slot's ray, and the first of it.
+template <bool any>
+[[gnu::noinline]] static Waiting next_of_later(LoneLater& later, LoneSlot& slot) noexcept {
+  slot.top = take_up(later, slot.ray.index, slot.top);
+  if (any && slot.ray.primitive >= 0) clear_stack(slot);
+  return next_waiting(slot);
+}
+
+template <bool any>
 FASTRT_INLINE void start_ray(const GeometryView& scene, LoneQueue& queue, LoneLines& lines, LoneSlot& slot) {
   const int i = *queue.next++;
   if ((queue.columns.ready >> i / group_size & 1U) == 0)
@@ -86,7 +96,9 @@ FASTRT_INLINE void start_ray(const GeometryView& scene, LoneQueue& queue, LoneLi
   slot.ray = lone_ray(queue.rays, queue.hits, i);
   copy_ray(queue.columns, i, slot.ray.own);
   clear_stack(slot);
-  line_up(scene, lines, slot, make_waiting(queue.start, 0.0F, size_bits));
+  line_up(scene, lines, slot,
+          queue.later != nullptr ? next_of_later<any>(*queue.later, slot)
+                                 : make_waiting(queue.start, 0.0F, size_bits));
 }
 
 FASTRT_INLINE void end_ray(HitBatch& hits, const LoneSlot& slot) {
@@ -101,7 +113,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
   LoneLines lines;
   std::uint32_t nodes = 0, runs = 0;
   for (int s = 0; s < lone_rays_at_once && queue.next != queue.end; ++s)
-    start_ray(scene, queue, lines, memory[s]);
+    start_ray<any>(scene, queue, lines, memory[s]);
   for (;;) {
     if (lines.count(at_node) >= lone_nodes_at_once) {
       nodes += lone_nodes_at_once;
@@ -112,7 +124,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
       for (std::uint32_t left = lines.count(at_end); left != 0 && queue.next != queue.end; --left) {
         LoneSlot& slot = lines.take(at_end);
         end_ray(queue.hits, slot);
-        start_ray(scene, queue, lines, slot);
+        start_ray<any>(scene, queue, lines, slot);
       }
     } else { // the last ones
       const std::uint32_t nodes_left = lines.count(at_node), leaves_left = lines.count(at_leaf);
@@ -124,6 +136,15 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
   }
   while (lines.count(at_end) != 0) end_ray(queue.hits, lines.take(at_end));
   queue.hits.lone += static_cast<std::uint64_t>(nodes) << 32U | runs;
+}
+
+// What was put off.
+template <bool any>
+static void trace_later(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LoneColumns& columns,
+                        LoneLater& later) noexcept {
+  if (later.count == 0) return;
+  trace_lone_rays<any>(scene, {rays, hits, columns, no_child, &later, later.rays, later.rays + later.count});
+  later.count = 0;
 }
 
 // All rays of a batch, each on its own.
@@ -140,7 +161,7 @@ static void trace_rays_alone(const GeometryView& scene, const RayBatch& rays, Hi
     for (std::uint32_t bits = to_bits(live); bits != 0; bits &= bits - 1)
       which[count++] = static_cast<std::uint8_t>(i + __builtin_ctz(bits));
   }
-  trace_lone_rays<any>(scene, {rays, hits, columns, scene.root, which, which + count});
+  trace_lone_rays<any>(scene, {rays, hits, columns, scene.root, nullptr, which, which + count});
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
