@@ -41,6 +41,23 @@ FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, 
   return light.visible_r[i] != 0.0F || light.visible_g[i] != 0.0F || light.visible_b[i] != 0.0F;
 }
 
+// The hits of shadow rays i .. : what they hold back, and where the rays go on. (Rows behind the last ray
+// have none.) Returns whether any does.
+FASTRT_INLINE bool pass_surfaces(const ShadingView& scene, RayBatch& rays, const HitBatch& hits, int i,
+                                 LightBatch& light) {
+  const PathM hit = simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0));
+  std::uint32_t going_on = 0;
+  for (std::uint32_t bits = to_bits(hit); bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    if (pass_surface(scene, rays, hits, i + lane, light)) going_on |= 1U << lane;
+  }
+  const PathM mask = from_bits<widest>(going_on);
+  const PathF t_min = PathF::load_aligned(rays.t_min + i);
+  simd::select(mask, PathF::load_aligned(hits.t + i), t_min).store_aligned(rays.t_min + i);
+  simd::select(mask, PathF::load_aligned(rays.t_max + i), t_min).store_aligned(rays.t_max + i); // done
+  return going_on != 0;
+}
+
 // Shadows through transparent surfaces: from surface to surface along each ray, in order of t.
 FASTRT_INLINE void trace_coloured_shadows(const SceneView& scene, RayBatch& rays, HitBatch& hits,
                                           LightBatch& light) {
@@ -50,14 +67,8 @@ FASTRT_INLINE void trace_coloured_shadows(const SceneView& scene, RayBatch& rays
   while (going_on) {
     find_closest_hits(scene.geometry, rays, hits);
     going_on = false;
-    for (int i = 0; i < rays.count; ++i) {
-      if (hits.primitive[i] >= 0 && pass_surface(scene.shading, rays, hits, i, light)) {
-        rays.t_min[i] = hits.t[i];
-        going_on = true;
-      } else {
-        rays.t_max[i] = rays.t_min[i]; // done
-      }
-    }
+    for (int i = 0; i < rays.count; i += widest)
+      if (pass_surfaces(scene.shading, rays, hits, i, light)) going_on = true;
   }
 }
 
