@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/write/checksum.hpp"
 
+#include <emmintrin.h>
+
 #include <algorithm>
 #include <array>
 
@@ -31,25 +33,53 @@ constexpr CrcTables make_crc_tables() {
 
 constexpr CrcTables crc_tables = make_crc_tables();
 
+constexpr std::size_t block_size = 16;
+
+// weighed: each byte times the number of bytes from it on.
+struct ByteSums {
+  std::uint64_t plain, weighed;
+};
+
+std::uint64_t sum_of_halves(__m128i halves) {
+  return static_cast<std::uint64_t>(
+      _mm_cvtsi128_si64(_mm_add_epi64(halves, _mm_unpackhi_epi64(halves, halves))));
+}
+
+ByteSums sum_blocks(const unsigned char* bytes, std::size_t blocks) {
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i first_weights = _mm_setr_epi16(16, 15, 14, 13, 12, 11, 10, 9),
+                last_weights = _mm_setr_epi16(8, 7, 6, 5, 4, 3, 2, 1);
+  __m128i plain = zero, before = zero, within = zero;
+  for (const unsigned char* const end = bytes + blocks * block_size; bytes != end; bytes += block_size) {
+    const __m128i block = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
+    before =
+        _mm_add_epi64(before, plain); // bytes of earlier blocks count once more for each byte of this one
+    plain = _mm_add_epi64(plain, _mm_sad_epu8(block, zero));
+    within = _mm_add_epi32(within, _mm_madd_epi16(_mm_unpacklo_epi8(block, zero), first_weights));
+    within = _mm_add_epi32(within, _mm_madd_epi16(_mm_unpackhi_epi8(block, zero), last_weights));
+  }
+  const __m128i within_halves =
+      _mm_add_epi64(_mm_unpacklo_epi32(within, zero), _mm_unpackhi_epi32(within, zero));
+  return {sum_of_halves(plain), block_size * sum_of_halves(before) + sum_of_halves(within_halves)};
+}
+
 } // namespace
 
 std::uint32_t adler32(const unsigned char* bytes, std::size_t count) noexcept {
-  // Sums of so many bytes, and of these weighed by their place, fit into 32 bits.
-  constexpr std::size_t run = 4096;
-  std::uint32_t a = 1, b = 0;
+  constexpr std::size_t run = 4096; // sums of so many bytes fit into 32 bits
+  std::uint64_t a = 1, b = 0;
   while (count != 0) {
-    const auto n = static_cast<std::uint32_t>(std::min(count, run));
-    std::uint32_t sum = 0, weighed = 0;
-    for (std::uint32_t i = 0; i < n; ++i) {
-      sum += bytes[i];
-      weighed += (n - i) * bytes[i];
-    }
-    b = static_cast<std::uint32_t>((b + std::uint64_t{n} * a + weighed) % adler_base);
-    a = (a + sum) % adler_base;
+    const std::size_t n = std::min(count, run), blocks = n / block_size;
+    const ByteSums sums = sum_blocks(bytes, blocks);
+    b += blocks * block_size * a + sums.weighed;
+    a += sums.plain;
+    for (std::size_t i = blocks * block_size; i < n; ++i) b += a += bytes[i];
+    a %= adler_base;
+    b %= adler_base;
     bytes += n;
     count -= n;
   }
-  return b << 16U | a;
+  return static_cast<std::uint32_t>(b << 16U | a);
 }
 
 std::uint32_t adler32_combine(std::uint32_t first, std::uint32_t second, std::size_t second_count) noexcept {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <memory>
 
 namespace fastrt {
 
@@ -59,21 +60,23 @@ struct Stripe {
 Stripe encode_stripe(const Picture& picture, std::size_t first, std::size_t last) {
   const std::size_t row_bytes = pixel * static_cast<std::size_t>(picture.width);
   // Two rows by turns, each after the three zero bytes that the filters want.
-  Bytes rows(2 * (row_bytes + pixel)), scratch(row_bytes), filtered((row_bytes + 1) * (last - first));
+  Bytes rows(2 * (row_bytes + pixel)), scratch(row_bytes);
+  const std::size_t filtered_bytes = (row_bytes + 1) * (last - first);
+  const auto filtered = std::make_unique_for_overwrite<unsigned char[]>(filtered_bytes);
   unsigned char *above = rows.data() + pixel, *row = above + row_bytes + pixel;
   if (first != 0) to_srgb8(picture.rgb + (first - 1) * row_bytes, row_bytes, above);
   for (std::size_t y = first; y < last; ++y) {
     to_srgb8(picture.rgb + y * row_bytes, row_bytes, row);
-    filter_row(row, above, row_bytes, scratch.data(), filtered.data() + (y - first) * (row_bytes + 1));
+    filter_row(row, above, row_bytes, scratch.data(), filtered.get() + (y - first) * (row_bytes + 1));
     std::swap(row, above);
   }
 
   Stripe stripe;
-  stripe.byte_count = filtered.size();
-  stripe.adler = adler32(filtered.data(), filtered.size());
+  stripe.byte_count = filtered_bytes;
+  stripe.adler = adler32(filtered.get(), filtered_bytes);
   const std::size_t chunk = begin_chunk(stripe.chunk, "IDAT");
   if (first == 0) stripe.chunk.insert(stripe.chunk.end(), {0x78, 0x01}); // zlib's header (RFC 1950)
-  deflate_piece(filtered.data(), filtered.size(), stripe.chunk);
+  deflate_piece(filtered.get(), filtered_bytes, stripe.chunk);
   end_chunk(stripe.chunk, chunk);
   return stripe;
 }
