@@ -17,18 +17,14 @@ static void hit_weights(const ShadingView& scene, const RayBatch& rays, const Hi
       if (lanes.primitive[lane] >= 0 &&
           static_cast<std::uint32_t>(lanes.primitive[lane]) < scene.triangle_count)
         triangles |= 1U << lane;
-    Corners corners{};
-    gather_corners(scene, lanes.primitive, triangles, corners);
+    const auto [a, b, c] = gather_corners(scene, PathI::load_aligned(lanes.primitive), triangles);
     PathV origin = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
     if (lanes.bits != 0) rays_to_objects(lanes, origin, dir);
     alignas(64) float o[3][widest], d[3][widest];
     store3(origin, o[0], o[1], o[2]);
     store3(dir, d[0], d[1], d[2]);
-    const auto weights =
-        triangle_weights(set_up_triangle(corner(corners, 0) - origin, corner(corners, 1) - origin,
-                                         corner(corners, 2) - origin),
-                         dir);
+    const auto weights = triangle_weights(set_up_triangle(a - origin, b - origin, c - origin), dir);
     const PathM mask = from_bits<widest>(triangles);
     select(mask, weights.u, PathF(0.0F)).store_unaligned(u + i);
     select(mask, weights.v, PathF(0.0F)).store_unaligned(v + i);

@@ -56,7 +56,7 @@ static void meet_surfaces(const PhotonJob& job, PhotonBatch& rays, TileScratch& 
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);
     out.lit[i / widest] = 0;
     if (bits == 0) continue;
-    find_surfaces(scene, rays, scratch.hits, i, s);
+    find_surfaces(scene, rays, scratch.hits, bits, i, s);
     if (scene.has_textures != 0) texture_surfaces(scene, rays, scratch.hits, 0.0F, bits, i, s);
     if (scene.has_absorption != 0) fade(scene, rays, scratch.hits, bits, i);
     find_albedo(scene, bits, i, s);

@@ -4,61 +4,46 @@
 #pragma once
 
 #include "src/kernels/triangle.hpp"
+#include "src/simd/gather.hpp"
 #include "src/trace/instance_lanes.hpp"
 #include "src/trace/shape_surface.hpp"
 #include "src/trace/tile_job.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// The corners of a triangle per lane, gathered from the scene's columns.
+// What the scene's columns hold in a place per lane.
+FASTRT_INLINE PathV gather3(const float* x, const float* y, const float* z, const PathI& places,
+                            std::uint32_t bits) {
+  return {gather(x, places, bits), gather(y, places, bits), gather(z, places, bits)};
+}
+
+// A triangle per lane.
 struct Corners {
-  alignas(64) float x[3][widest], y[3][widest], z[3][widest];
+  PathV a, b, c;
 };
 
-FASTRT_INLINE PathV corner(const Corners& c, int v) {
-  return {PathF::load_aligned(c.x[v]), PathF::load_aligned(c.y[v]), PathF::load_aligned(c.z[v])};
+FASTRT_INLINE Corners gather_corners(const ShadingView& scene, const PathI& triangles, std::uint32_t bits) {
+  const auto corner = [&](const std::uint32_t* column) {
+    return gather3(scene.position_x, scene.position_y, scene.position_z, gather(column, triangles, bits),
+                   bits);
+  };
+  return {corner(scene.v0), corner(scene.v1), corner(scene.v2)};
 }
 
-FASTRT_INLINE void gather_corners(const ShadingView& scene, const std::int32_t* primitives,
-                                  std::uint32_t bits, Corners& c) {
-  const std::uint32_t* const columns[3] = {scene.v0, scene.v1, scene.v2};
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    for (int v = 0; v < 3; ++v) {
-      const std::uint32_t index = columns[v][primitives[lane]];
-      c.x[v][lane] = scene.position_x[index];
-      c.y[v][lane] = scene.position_y[index];
-      c.z[v][lane] = scene.position_z[index];
-    }
-  }
+// Leaves the lanes in `bits` whose three corners all have normals.
+FASTRT_INLINE Corners gather_normals(const ShadingView& scene, const PathI& triangles, std::uint32_t& bits) {
+  const PathI a = gather(scene.n0, triangles, bits), b = gather(scene.n1, triangles, bits),
+              c = gather(scene.n2, triangles, bits), none(-1);
+  bits &= ~to_bits(simd::bool_cast((a == none) | (b == none) | (c == none)));
+  const auto normal = [&](const PathI& places) {
+    return gather3(scene.normal_x, scene.normal_y, scene.normal_z, places, bits);
+  };
+  return {normal(a), normal(b), normal(c)};
 }
 
-// Returns the lanes whose three corners all have normals.
-FASTRT_INLINE std::uint32_t gather_normals(const ShadingView& scene, const std::int32_t* primitives,
-                                           std::uint32_t bits, Corners& c) {
-  const std::uint32_t* const columns[3] = {scene.n0, scene.n1, scene.n2};
-  std::uint32_t complete = bits;
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    for (int v = 0; v < 3; ++v) {
-      const std::uint32_t index = columns[v][primitives[lane]];
-      if (index == 0xFFFFFFFFU) {
-        complete &= ~(1U << lane);
-        break;
-      }
-      c.x[v][lane] = scene.normal_x[index];
-      c.y[v][lane] = scene.normal_y[index];
-      c.z[v][lane] = scene.normal_z[index];
-    }
-  }
-  return complete;
-}
-
-FASTRT_INLINE Surface triangle_surface(const ShadingView& scene, const std::int32_t* primitives,
-                                       std::uint32_t bits, const PathV& origin, const PathV& dir) {
-  Corners corners{};
-  gather_corners(scene, primitives, bits, corners);
-  const PathV a = corner(corners, 0), b = corner(corners, 1), c = corner(corners, 2);
+FASTRT_INLINE Surface triangle_surface(const ShadingView& scene, const PathI& triangles, std::uint32_t bits,
+                                       const PathV& origin, const PathV& dir) {
+  const auto [a, b, c] = gather_corners(scene, triangles, bits);
   const auto [u, v] = triangle_weights(set_up_triangle(a - origin, b - origin, c - origin), dir);
   const PathF w = (PathF(1.0F) - u) - v;
   Surface s;
@@ -68,9 +53,10 @@ FASTRT_INLINE Surface triangle_surface(const ShadingView& scene, const std::int3
   s.magnitude = max(max(largest(a), largest(b)), largest(c));
   s.shading = s.geometric;
   if (scene.normal_x == nullptr) return s;
-  const std::uint32_t smooth = gather_normals(scene, primitives, bits, corners);
+  std::uint32_t smooth = bits;
+  const Corners normals = gather_normals(scene, triangles, smooth);
   if (smooth == 0) return s;
-  const PathV sum = (corner(corners, 0) * w + corner(corners, 1) * u) + corner(corners, 2) * v;
+  const PathV sum = (normals.a * w + normals.b * u) + normals.c * v;
   const PathF length2 = dot(sum, sum);
   const PathM usable =
       from_bits<widest>(smooth) & (length2 > PathF(0.0F)) & (length2 < PathF(__builtin_inff()));
@@ -78,21 +64,11 @@ FASTRT_INLINE Surface triangle_surface(const ShadingView& scene, const std::int3
   return s;
 }
 
-FASTRT_INLINE Surface sphere_surface(const ShadingView& scene, const std::int32_t* primitives,
-                                     std::uint32_t bits, const PathV& origin, const PathV& dir,
-                                     const PathF& t) {
-  Corners c{};
-  alignas(64) float radius[widest] = {};
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    const std::uint32_t sphere = static_cast<std::uint32_t>(primitives[lane]) - scene.triangle_count;
-    c.x[0][lane] = scene.sphere_x[sphere];
-    c.y[0][lane] = scene.sphere_y[sphere];
-    c.z[0][lane] = scene.sphere_z[sphere];
-    radius[lane] = scene.sphere_radius[sphere];
-  }
-  const PathV center = corner(c, 0);
-  const PathF r = PathF::load_aligned(radius);
+FASTRT_INLINE Surface sphere_surface(const ShadingView& scene, const PathI& primitives, std::uint32_t bits,
+                                     const PathV& origin, const PathV& dir, const PathF& t) {
+  const PathI spheres = primitives - PathI(static_cast<std::int32_t>(scene.triangle_count));
+  const PathV center = gather3(scene.sphere_x, scene.sphere_y, scene.sphere_z, spheres, bits);
+  const PathF r = gather(scene.sphere_radius, spheres, bits);
   Surface s;
   s.geometric = normalize((origin - center) + dir * t);
   s.point = center + s.geometric * r;
@@ -144,34 +120,46 @@ FASTRT_INLINE std::uint32_t object_of_hit(const ShadingView& scene, const HitBat
   return row->object != no_override ? row->object : object_index(scene, hits.inner[i]);
 }
 
-// Lanes by the kind of primitive that they hit.
+// Lanes by the kind of primitive that they hit; and those where that is flat.
 struct HitKinds {
-  std::uint32_t triangles, spheres, shapes;
+  std::uint32_t triangles, spheres, shapes, flat;
 };
 
-// Adds a lane to the kind of its primitive. Returns whether that is flat.
-FASTRT_INLINE bool sort_hit(const ShadingView& scene, std::int32_t id, int lane, HitKinds& kinds) {
-  if (static_cast<std::uint32_t>(id) < scene.triangle_count) {
-    kinds.triangles |= 1U << lane;
-    return true;
-  }
-  if (id < scene.shapes.first_cone) {
-    kinds.spheres |= 1U << lane;
-    return false;
-  }
-  kinds.shapes |= 1U << lane;
-  return id >= scene.shapes.first_disk;
+// bits: lanes that hit something.
+FASTRT_INLINE HitKinds kinds_of(const ShadingView& scene, const PathI& primitives, std::uint32_t bits) {
+  const auto before = [&](std::int32_t end) {
+    return to_bits(simd::bool_cast(primitives < PathI(end))) & bits;
+  };
+  const std::uint32_t triangles = before(static_cast<std::int32_t>(scene.triangle_count)),
+                      not_shapes = before(scene.shapes.first_cone), round = before(scene.shapes.first_disk);
+  return {triangles, not_shapes & ~triangles, bits & ~not_shapes, triangles | (bits & ~round)};
+}
+
+FASTRT_INLINE PathI materials_of(const ShadingView& scene, const PathI& primitives, const HitKinds& kinds) {
+  PathI materials(0);
+  const auto add = [&](const std::uint32_t* column, std::int32_t first, std::uint32_t bits) {
+    if (bits != 0) materials = materials | gather(column, primitives - PathI(first), bits);
+  };
+  add(scene.triangle_material, 0, kinds.triangles);
+  add(scene.sphere_material, static_cast<std::int32_t>(scene.triangle_count), kinds.spheres);
+  add(scene.shape_material, scene.shapes.first_cone, kinds.shapes);
+  return materials;
+}
+
+// The primitives of the lanes in `flat`, elsewhere -1.
+FASTRT_INLINE PathI flat_ones(const PathI& primitives, std::uint32_t flat) {
+  return select_ints<PathF>(from_bits<widest>(flat), primitives, PathI(-1));
 }
 
 // The surfaces of primitives where rays hit them at t.
 FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* primitives,
                                   const HitKinds& kinds, const PathV& origin, const PathV& dir,
                                   const float* t) {
+  const PathI ids = load<PathI>(primitives);
   Surface s;
-  if (kinds.triangles != 0) s = triangle_surface(scene, primitives, kinds.triangles, origin, dir);
+  if (kinds.triangles != 0) s = triangle_surface(scene, ids, kinds.triangles, origin, dir);
   if (kinds.spheres != 0) {
-    const Surface on_sphere =
-        sphere_surface(scene, primitives, kinds.spheres, origin, dir, PathF::load_aligned(t));
+    const Surface on_sphere = sphere_surface(scene, ids, kinds.spheres, origin, dir, PathF::load_aligned(t));
     s = kinds.triangles != 0 ? select(from_bits<widest>(kinds.spheres), on_sphere, s) : on_sphere;
   }
   if (kinds.shapes != 0) {
@@ -185,21 +173,19 @@ FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* 
 
 // find_surfaces of a scene with instances.
 [[gnu::noinline]] static void find_instance_surfaces(const ShadingView& scene, const PathBatch& rays,
-                                                     const HitBatch& hits, int i,
+                                                     const HitBatch& hits, std::uint32_t bits, int i,
                                                      SurfaceBatch& batch) noexcept {
   const int count = rays.count - i < widest ? rays.count - i : widest;
   InstanceLanes lanes{};
   gather_instances(scene.shapes, hits, i, count, lanes);
-  HitKinds kinds{};
-  for (int lane = 0; lane < count; ++lane) {
-    const std::int32_t id = lanes.primitive[lane];
-    batch.planar[i + lane] = batch.planar_inner[i + lane] = -1;
-    if (id < 0) continue;
-    batch.material[i + lane] = static_cast<std::int32_t>(material_of_hit(scene, hits, i + lane));
-    if (!sort_hit(scene, id, lane, kinds)) continue;
-    batch.planar[i + lane] = hits.primitive[i + lane];
-    batch.planar_inner[i + lane] = id;
+  for (std::uint32_t left = bits; left != 0; left &= left - 1) {
+    const int ray = i + __builtin_ctz(left);
+    batch.material[ray] = static_cast<std::int32_t>(material_of_hit(scene, hits, ray));
   }
+  const PathI shown = PathI::load_aligned(lanes.primitive);
+  const HitKinds kinds = kinds_of(scene, shown, bits);
+  flat_ones(PathI::load_aligned(hits.primitive + i), kinds.flat).store_aligned(batch.planar + i);
+  flat_ones(shown, kinds.flat).store_aligned(batch.planar_inner + i);
   const PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
   PathV origin_there = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
   PathV dir_there = dir;
@@ -211,19 +197,15 @@ FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* 
   PathF::load_aligned(lanes.growth).store_aligned(batch.growth + i);
 }
 
-// The surfaces that rays i .. i + widest - 1 hit; rows of rays that missed hold no meaning.
-FASTRT_INLINE void find_surfaces(const ShadingView& scene, const PathBatch& rays, const HitBatch& hits, int i,
-                                 SurfaceBatch& batch) {
-  if (scene.shapes.instance_count != 0) return find_instance_surfaces(scene, rays, hits, i, batch);
+// The surfaces that rays i .. hit, of the lanes in `bits`; other rows hold no meaning.
+FASTRT_INLINE void find_surfaces(const ShadingView& scene, const PathBatch& rays, const HitBatch& hits,
+                                 std::uint32_t bits, int i, SurfaceBatch& batch) {
+  if (scene.shapes.instance_count != 0) return find_instance_surfaces(scene, rays, hits, bits, i, batch);
   const std::int32_t* primitives = hits.primitive + i;
-  HitKinds kinds{};
-  for (int lane = 0; lane < widest && i + lane < rays.count; ++lane) {
-    const std::int32_t id = primitives[lane];
-    batch.planar[i + lane] = -1;
-    if (id < 0) continue;
-    batch.material[i + lane] = static_cast<std::int32_t>(material_index(scene, id));
-    if (sort_hit(scene, id, lane, kinds)) batch.planar[i + lane] = id;
-  }
+  const PathI ids = PathI::load_aligned(primitives);
+  const HitKinds kinds = kinds_of(scene, ids, bits);
+  materials_of(scene, ids, kinds).store_aligned(batch.material + i);
+  flat_ones(ids, kinds.flat).store_aligned(batch.planar + i);
   const PathV origin = load3<PathF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
   const PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
   Surface s = surfaces_of(scene, primitives, kinds, origin, dir, hits.t + i);

@@ -109,7 +109,7 @@ static void see_surfaces(const TileJob& job, PathBatch& rays, TileScratch& scrat
     if (bits != in_batch) accumulate(rays, load_weight(rays, i), background, in_batch & ~bits, i, scratch);
     scratch.surface.shaded[i / widest] = 0;
     if (bits == 0) continue;
-    find_surfaces(scene.shading, rays, scratch.hits, i, scratch.surface);
+    find_surfaces(scene.shading, rays, scratch.hits, bits, i, scratch.surface);
     if (scene.shading.has_textures != 0)
       texture_surfaces(scene.shading, rays, scratch.hits, job.spread, bits, i, scratch.surface);
     if (scene.shading.has_absorption != 0) fade(scene.shading, rays, scratch.hits, bits, i);
