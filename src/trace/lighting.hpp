@@ -124,8 +124,10 @@ struct ReflectingLanes {
 
 FASTRT_INLINE ReflectingLanes reflecting_lanes(const ShadingView& scene, const SurfaceBatch& s,
                                                std::uint32_t bits, int i) {
-  const PathV none = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
-  ReflectingLanes out{none, none, PathF(0.0F), 0, 0};
+  // Not in one struct, which would be cleared in memory.
+  PathV diffuse = broadcast3<PathF>(0.0F, 0.0F, 0.0F), specular = diffuse;
+  PathF shininess(0.0F);
+  std::uint32_t glossy = 0, blinn = 0;
   for_each_material(
       scene, s.material + i, bits, [&](const MaterialRow& row, const PathM& mask, std::uint32_t same) {
         const bool varies = row.textures != nullptr;
@@ -133,13 +135,13 @@ FASTRT_INLINE ReflectingLanes reflecting_lanes(const ShadingView& scene, const S
                                 : broadcast3<PathF>(row.diffuse);
         const PathV ks = varies ? load3<PathF>(s.specular_r + i, s.specular_g + i, s.specular_b + i)
                                 : broadcast3<PathF>(row.specular);
-        out.diffuse = select(mask, kd, out.diffuse);
-        out.specular = select(mask, ks, out.specular);
-        out.shininess = simd::select(mask, PathF(row.shininess), out.shininess);
-        if (row.has_specular != 0) out.glossy |= same;
-        if (row.has_specular != 0 && row.blinn != 0) out.blinn |= same;
+        diffuse = select(mask, kd, diffuse);
+        specular = select(mask, ks, specular);
+        shininess = simd::select(mask, PathF(row.shininess), shininess);
+        if (row.has_specular != 0) glossy |= same;
+        if (row.has_specular != 0 && row.blinn != 0) blinn |= same;
       });
-  return out;
+  return {diffuse, specular, shininess, glossy, blinn};
 }
 
 // sp of all lanes at once, whatever their materials; 0 where Ks does not count.
