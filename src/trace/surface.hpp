@@ -4,18 +4,11 @@
 #pragma once
 
 #include "src/kernels/triangle.hpp"
-#include "src/simd/gather.hpp"
 #include "src/trace/instance_lanes.hpp"
 #include "src/trace/shape_surface.hpp"
 #include "src/trace/tile_job.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-// What the scene's columns hold in a place per lane.
-FASTRT_INLINE PathV gather3(const float* x, const float* y, const float* z, const PathI& places,
-                            std::uint32_t bits) {
-  return {gather(x, places, bits), gather(y, places, bits), gather(z, places, bits)};
-}
 
 // A triangle per lane.
 struct Corners {
@@ -164,7 +157,7 @@ FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* 
   }
   if (kinds.shapes != 0) {
     const Surface on_shape =
-        shape_surface(scene.shapes, primitives, kinds.shapes, origin, dir, PathF::load_aligned(t));
+        shape_surface(scene.shapes, ids, kinds.shapes, origin, dir, PathF::load_aligned(t));
     s = (kinds.triangles | kinds.spheres) != 0 ? select(from_bits<widest>(kinds.shapes), on_shape, s)
                                                : on_shape;
   }

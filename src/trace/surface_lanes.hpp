@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/kernels/vec3.hpp"
+#include "src/simd/gather.hpp"
 #include "src/trace/scene_view.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -11,6 +12,12 @@ using PathF = Floats<widest>;
 using PathI = Ints<widest>;
 using PathM = Mask<widest>;
 using PathV = V3<PathF>;
+
+// What the scene's columns hold in a place per lane.
+FASTRT_INLINE PathV gather3(const float* x, const float* y, const float* z, const PathI& places,
+                            std::uint32_t bits) {
+  return {gather(x, places, bits), gather(y, places, bits), gather(z, places, bits)};
+}
 
 // One surface per lane.
 struct Surface {
