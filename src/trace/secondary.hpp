@@ -10,18 +10,41 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // What surrounds the rays of a packet before and after the surface, per lane.
 struct MediaLanes {
-  alignas(64) float ior_before[widest], ior_after[widest];
+  PathF ior_before, ior_after;
   alignas(64) std::int32_t after[max_media][widest];
 };
 
-FASTRT_INLINE void cross_surface(const ShadingView& scene, const PathBatch& rays, std::int32_t material,
-                                 int i, int lane, MediaLanes& media) {
-  std::int32_t list[max_media];
-  for (int k = 0; k < max_media; ++k) list[k] = rays.media[k][i + lane];
-  media.ior_before[lane] = list[0] < 0 ? 1.0F : scene.materials[list[0]].ior;
-  cross_medium(material, list);
-  for (int k = 0; k < max_media; ++k) media.after[k][lane] = list[k];
-  media.ior_after[lane] = list[0] < 0 ? 1.0F : scene.materials[list[0]].ior;
+FASTRT_INLINE PathF ior_in(const ShadingView& scene, const PathI& media, std::uint32_t bits) {
+  constexpr std::int32_t words = sizeof(MaterialRow) / sizeof(float);
+  const std::uint32_t some = to_bits(simd::bool_cast(media >= PathI(0))) & bits;
+  return simd::select(from_bits<widest>(some), gather(&scene.materials->ior, media * PathI(words), some),
+                      PathF(1.0F));
+}
+
+// cross_medium for the lanes in `bits`, whose media are in `after` yet.
+FASTRT_INLINE void cross_surface(const ShadingView& scene, std::int32_t material, std::uint32_t bits,
+                                 MediaLanes& media) {
+  const PathM mask = from_bits<widest>(bits);
+  const PathI crossed(material), none(-1);
+  PathI list[max_media];
+  PathM held[max_media]; // there or further inside
+  for (int k = 0; k < max_media; ++k) {
+    list[k] = PathI::load_aligned(media.after[k]);
+    held[k] = simd::bool_cast(list[k] == crossed);
+    if (k != 0) held[k] = held[k] | held[k - 1];
+  }
+  const PathM leaves = held[max_media - 1];
+  PathI first = none;
+  for (int k = 0; k < max_media; ++k) {
+    const PathI further_out = k + 1 < max_media ? list[k + 1] : none,
+                further_in = k > 0 ? list[k - 1] : crossed;
+    const PathI left = select_ints<PathF>(held[k], further_out, list[k]);
+    const PathI now = select_ints<PathF>(mask, select_ints<PathF>(leaves, left, further_in), list[k]);
+    now.store_aligned(media.after[k]);
+    if (k == 0) first = now;
+  }
+  media.ior_before = simd::select(mask, ior_in(scene, list[0], bits), media.ior_before);
+  media.ior_after = simd::select(mask, ior_in(scene, first, bits), media.ior_after);
 }
 
 // The weights and directions of the two rays that leave a surface; lanes whose weight is 0 have none.
@@ -167,15 +190,10 @@ FASTRT_INLINE void add_rays(const PathM& mask, std::uint32_t bits, const PathV& 
 FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, const SurfaceBatch& s,
                                  const MaterialRow& row, const PathM& mask, std::uint32_t bits, int i,
                                  LeavingRays& out) {
-  if (is_medium(row))
-    for (std::uint32_t b = bits; b != 0; b &= b - 1) {
-      const int lane = __builtin_ctz(b);
-      cross_surface(job.scene->shading, rays, s.material[i + lane], i, lane, out.media);
-    }
+  if (is_medium(row)) cross_surface(job.scene->shading, s.material[i + __builtin_ctz(bits)], bits, out.media);
   const SurfaceAngles angles = surface_angles(s, i);
   const SecondaryLanes lanes =
-      secondary_lanes(row, angles, transmit_of(row, s, i), PathF::load_aligned(out.media.ior_before),
-                      PathF::load_aligned(out.media.ior_after));
+      secondary_lanes(row, angles, transmit_of(row, s, i), out.media.ior_before, out.media.ior_after);
   const PathV weight = load3<PathF>(rays.weight_r + i, rays.weight_g + i, rays.weight_b + i);
   const PathV point = load_point(s, i);
   const PathF offset = PathF::load_aligned(s.magnitude + i) * PathF(offset_share);
@@ -186,16 +204,19 @@ FASTRT_INLINE void leave_surface(const TileJob& job, const PathBatch& rays, cons
            weight * lanes.transmitted_weight, job.min_contribution, out.refracted);
 }
 
+// One column after the other: structs are copied through memory.
+FASTRT_INLINE void clear(NewRays& rays) {
+  rays.origin = rays.dir = rays.weight = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
+  rays.bits = 0;
+}
+
 // Nothing leaves yet; where a surface is not crossed, the media stay as they are.
-FASTRT_INLINE LeavingRays no_rays(const PathBatch& rays, const KeptColumns& keep, int i) {
-  const PathV none = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
-  LeavingRays out;
-  out.reflected = out.refracted = {none, none, none, 0};
-  PathF(1.0F).store_aligned(out.media.ior_before);
-  PathF(1.0F).store_aligned(out.media.ior_after);
+FASTRT_INLINE void clear(const PathBatch& rays, const KeptColumns& keep, int i, LeavingRays& out) {
+  clear(out.reflected);
+  clear(out.refracted);
+  out.media.ior_before = out.media.ior_after = PathF(1.0F);
   for (int k = 0; keep.media && k < max_media; ++k)
     PathI::load_aligned(rays.media[k] + i).store_aligned(out.media.after[k]);
-  return out;
 }
 
 // All rays that leave the surfaces of a batch.
@@ -206,7 +227,8 @@ static void make_secondary_rays(const TileJob& job, const PathBatch& rays, const
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t hits = hit_bits(rays, scratch.hits, i);
     if (hits == 0) continue;
-    LeavingRays leaving = no_rays(rays, keep, i);
+    LeavingRays leaving;
+    clear(rays, keep, i, leaving);
     for_each_material(job.scene->shading, s.material + i, hits,
                       [&](const MaterialRow& row, const PathM& mask, std::uint32_t bits) {
                         if ((row.has_mirror | row.has_transmit) != 0 && row.unlit == 0)
