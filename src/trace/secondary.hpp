@@ -15,10 +15,9 @@ struct MediaLanes {
 };
 
 FASTRT_INLINE PathF ior_in(const ShadingView& scene, const PathI& media, std::uint32_t bits) {
-  constexpr std::int32_t words = sizeof(MaterialRow) / sizeof(float);
   const std::uint32_t some = to_bits(simd::bool_cast(media >= PathI(0))) & bits;
-  return simd::select(from_bits<widest>(some), gather(&scene.materials->ior, media * PathI(words), some),
-                      PathF(1.0F));
+  return simd::select(from_bits<widest>(some),
+                      gather(&scene.materials->ior, media * PathI(material_words), some), PathF(1.0F));
 }
 
 // cross_medium for the lanes in `bits`, whose media are in `after` yet.

@@ -41,15 +41,35 @@ FASTRT_INLINE bool pass_surface(const ShadingView& scene, const RayBatch& rays, 
   return light.visible_r[i] != 0.0F || light.visible_g[i] != 0.0F || light.visible_b[i] != 0.0F;
 }
 
+// The same for rays i .. in the lanes `bits` where there are neither textures nor instances. Returns the
+// lanes that go on.
+FASTRT_INLINE std::uint32_t pass_plain_surfaces(const ShadingView& scene, const HitBatch& hits,
+                                                std::uint32_t bits, int i, LightBatch& light) {
+  const PathI ids = PathI::load_aligned(hits.primitive + i);
+  const PathI places = materials_of(scene, ids, kinds_of(scene, ids, bits)) * PathI(material_words);
+  const std::uint32_t pass =
+      to_bits(simd::bool_cast(gather(&scene.materials->passes_light, places, bits) != PathI(0)));
+  const float* const first = scene.materials->transmit;
+  const PathV transmit = gather3(first, first + 1, first + 2, places, pass); // 0 where nothing passes
+  const PathV visible = load3<PathF>(light.visible_r + i, light.visible_g + i, light.visible_b + i);
+  const PathV left = visible * transmit;
+  store_visibility(select(from_bits<widest>(bits), left, visible), i, light);
+  const PathF zero(0.0F);
+  return to_bits((left.x != zero) | (left.y != zero) | (left.z != zero)) & pass;
+}
+
 // The hits of shadow rays i .. : what they hold back, and where the rays go on. (Rows behind the last ray
 // have none.) Returns whether any does.
 FASTRT_INLINE bool pass_surfaces(const ShadingView& scene, RayBatch& rays, const HitBatch& hits, int i,
                                  LightBatch& light) {
-  const PathM hit = simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0));
+  std::uint32_t bits = to_bits(simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0)));
   std::uint32_t going_on = 0;
-  for (std::uint32_t bits = to_bits(hit); bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    if (pass_surface(scene, rays, hits, i + lane, light)) going_on |= 1U << lane;
+  if (bits != 0 && scene.has_textures == 0 && scene.shapes.instance_count == 0) {
+    going_on = pass_plain_surfaces(scene, hits, bits, i, light);
+  } else {
+    for (; bits != 0; bits &= bits - 1)
+      if (pass_surface(scene, rays, hits, i + __builtin_ctz(bits), light))
+        going_on |= 1U << __builtin_ctz(bits);
   }
   const PathM mask = from_bits<widest>(going_on);
   const PathF t_min = PathF::load_aligned(rays.t_min + i);

@@ -139,6 +139,9 @@ FASTRT_INLINE PathI materials_of(const ShadingView& scene, const PathI& primitiv
   return materials;
 }
 
+// From one row of materials to the next.
+inline constexpr std::int32_t material_words = sizeof(MaterialRow) / sizeof(float);
+
 // The primitives of the lanes in `flat`, elsewhere -1.
 FASTRT_INLINE PathI flat_ones(const PathI& primitives, std::uint32_t flat) {
   return select_ints<PathF>(from_bits<widest>(flat), primitives, PathI(-1));
