@@ -55,7 +55,7 @@ FASTRT_INLINE TouchedPairs touch_pairs(const Beam& beam, const WideNode& node, S
     const GroupedF size = for_groups(LeafF(2.0F) * ((e.u.high - e.u.low) * (e.v.high - e.v.low)));
     for (int step = 0; step < group_steps; ++step) {
       const GroupRectangles r = rectangles_of(beam.groups, step, boxes.w.low, boxes.w.high);
-      pairs.touched |= spread_pairs(to_bits(touch_boxes(beam, step, r, boxes)), half, step);
+      pairs.touched |= spread_pairs(to_bits(touch_boxes(r, boxes)), half, step);
       pairs.small |= spread_pairs(to_bits((r.x1 - r.x0) * (r.y1 - r.y0) > size), half, step);
     }
   }

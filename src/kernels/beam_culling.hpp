@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a beam can reach boxes and triangles: groups against eight boxes at once, rays against one box, and
-// rays against a triangle as seen along them.
+// What of a beam can reach boxes: groups against eight of them at once, and rays against one.
 #pragma once
 
 #include "src/kernels/beam_setup.hpp"
@@ -58,9 +57,12 @@ FASTRT_INLINE GroupedF of_groups(const float* column, int step) {
 #endif
 }
 
-// The rays of groups that still look as far as `near`.
-FASTRT_INLINE std::uint64_t rays_as_far_as(const Beam& beam, float near) {
-  return rays_of_groups(GroupF::load_aligned(beam.far) >= GroupF(near));
+// The rays that still look as far as `near`.
+FASTRT_INLINE std::uint64_t rays_as_far_as(const BeamRays& rays, float near) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < beam_size; i += widest)
+    bits |= std::uint64_t{to_bits(PacketF::load_aligned(rays.far + i) >= PacketF(near))} << i;
+  return bits;
 }
 
 // Where the groups of a step lie between two depths.
@@ -89,10 +91,10 @@ FASTRT_INLINE Grouped for_groups(const Extents<LeafF>& e) {
           {for_groups(max(e.w.low, LeafF(0.0F))), for_groups(e.w.high)}};
 }
 
-// The groups of a step that touch the boxes; the boxes' depths begin at 0 or later.
-FASTRT_INLINE PacketM touch_boxes(const Beam& beam, int step, const GroupRectangles& r, const Grouped& e) {
+// The groups of a step that touch the boxes.
+FASTRT_INLINE PacketM touch_boxes(const GroupRectangles& r, const Grouped& e) {
   return (r.x0 <= e.u.high) & (r.x1 >= e.u.low) & (r.y0 <= e.v.high) & (r.y1 >= e.v.low) &
-         (e.w.high >= GroupedF(0.0F)) & (e.w.low <= of_groups(beam.far, step));
+         (e.w.high >= GroupedF(0.0F));
 }
 
 // Places of pairs of a group and a lane among bits: pair_lanes * group + lane.
@@ -119,7 +121,7 @@ FASTRT_INLINE std::uint32_t touch_boxes(const Beam& beam, const Extents<LeafF>& 
   std::uint32_t touched = 0;
   for (int step = 0; step < group_steps; ++step) {
     const GroupRectangles r = rectangles_of(beam.groups, step, boxes.w.low, boxes.w.high);
-    touched |= places_of(to_bits(touch_boxes(beam, step, r, boxes)), step);
+    touched |= places_of(to_bits(touch_boxes(r, boxes)), step);
   }
   return touched;
 }
@@ -161,46 +163,6 @@ FASTRT_INLINE std::uint32_t touch_rays(const BeamRays& rays, const LoneExtents& 
     const PacketM met = (min(xb, xe) <= PacketF(e.u1)) & (max(xb, xe) >= PacketF(e.u0)) &
                         (min(yb, ye) <= PacketF(e.v1)) & (max(yb, ye) >= PacketF(e.v0));
     bits |= to_bits(met) << k;
-  }
-  return bits;
-}
-
-// Triangles of a run in the frame, as columns.
-struct FrameTriangles {
-  alignas(32) float u[3][leaf_lanes], v[3][leaf_lanes], w[3][leaf_lanes], margin[leaf_lanes];
-};
-
-// Coordinates of a run's corners along an axis, where `sign` is set negated and less `offset`; and their
-// extent.
-FASTRT_INLINE Extent<LeafF> place_corners(const BlockRun<TriangleBlock>& run, int axis, const LeafF& sign,
-                                          const LeafF& offset, float (&out)[3][leaf_lanes]) {
-  constexpr int column = 3 * block_size;
-  LeafF corner[3];
-  for (int v = 0; v < 3; ++v) {
-    const int at = axis * column + v * block_size;
-    corner[v] = flip(load_two<LeafF>(run.low->x[0] + at, run.high->x[0] + at), sign) - offset;
-    corner[v].store_aligned(out[v]);
-  }
-  return {min(corner[0], min(corner[1], corner[2])), max(corner[0], max(corner[1], corner[2]))};
-}
-
-// The rays of group g that triangle i lies around: seen along each ray, its corners turn one way.
-FASTRT_INLINE std::uint32_t rays_inside(const BeamRays& rays, const FrameTriangles& f, int i, int g) {
-  std::uint32_t bits = 0;
-  const PacketF margin(f.margin[i]);
-  for (int k = 0; k < group_size; k += widest) {
-    const int r = g * group_size + k;
-    const PacketF rx = PacketF::load_aligned(rays.x + r), ry = PacketF::load_aligned(rays.y + r);
-    const PacketF sx = PacketF::load_aligned(rays.slope_x + r), sy = PacketF::load_aligned(rays.slope_y + r);
-    PacketF x[3], y[3];
-    for (int c = 0; c < 3; ++c) {
-      const PacketF w(f.w[c][i]);
-      x[c] = cull_less(sx, w, PacketF(f.u[c][i]) - rx);
-      y[c] = cull_less(sy, w, PacketF(f.v[c][i]) - ry);
-    }
-    const PacketF p = cull_mul_sub(x[1], y[2], y[1] * x[2]), q = cull_mul_sub(x[2], y[0], y[2] * x[0]),
-                  s = cull_mul_sub(x[0], y[1], y[0] * x[1]);
-    bits |= to_bits((min(p, min(q, s)) >= negate(margin)) | (max(p, max(q, s)) <= margin)) << k;
   }
   return bits;
 }

@@ -1,169 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A beam in a leaf: triangles are sieved, then tested with a register full of rays or of triangles, whichever
-// takes fewer tests; spheres and shapes are tested with a register of rays.
+// A beam in a leaf: spheres and shapes are tested with a register of rays; triangles: beam_triangles.hpp.
 #pragma once
 
-#include "src/kernels/beam_children.hpp"
+#include "src/kernels/beam_triangles.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-template <bool any>
-struct BeamTraversal {
-  const GeometryView& scene;
-  const RayBatch& rays;
-  HitBatch& hits;
-  LoneColumns& columns; // of rays that go on alone
-  int first;            // ray 0 of the beam in the batch
-  Beam& beam;
-  std::uint64_t open; // rays that still look for a hit
-  std::uint32_t nodes = 0, tests = 0;
-};
-
-// After new hits of the rays in `bits` of group g.
-template <bool any>
-FASTRT_INLINE void shorten_group(BeamTraversal<any>& t, int g, std::uint32_t bits) {
-  if constexpr (any) t.open &= ~(static_cast<std::uint64_t>(bits) << (g * group_size));
-  const std::uint32_t open = rays_of_group(t.open, g);
-  set_far(t.beam, g, beam_far(t.beam, t.hits, t.first, g, open));
-}
-
-// One primitive against the rays of group g in `bits`.
-template <bool any, class Meet>
-FASTRT_INLINE std::uint32_t meet_beam_group(BeamTraversal<any>& t, int g, std::uint32_t bits,
-                                            std::int32_t primitive, const Meet& meet) {
-  t.tests += static_cast<std::uint32_t>(__builtin_popcount(bits));
-  std::uint32_t changed = 0;
-  for (int k = 0; k < group_size; k += widest) {
-    if ((bits >> k & register_bits) == 0) continue;
-    const int i = t.first + g * group_size + k;
-    const auto [hit, distance] = meet(i);
-    const PacketM counted = hit & from_bits<widest>(bits >> k & register_bits);
-    if (to_bits(counted) == 0) continue;
-    PacketF best_t = PacketF::load_aligned(t.hits.t + i);
-    PacketI best_primitive = PacketI::load_aligned(t.hits.primitive + i);
-    const std::uint32_t kept =
-        keep_closest(best_t, best_primitive, load<PacketI>(t.rays.exclude + i), counted, distance, primitive);
-    if (kept == 0) continue;
-    best_t.store_aligned(t.hits.t + i);
-    best_primitive.store_aligned(t.hits.primitive + i);
-    changed |= kept << k;
-  }
-  return changed;
-}
-
-template <bool any>
-FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int lane,
-                                          int g, std::uint32_t bits) {
-  const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, lane), v1 = spread_vertex<PacketF>(run, 1, lane),
-                    v2 = spread_vertex<PacketF>(run, 2, lane);
-  return meet_beam_group(t, g, bits, run.primitive(lane), [&](int i) -> MetLanes {
-    const V3<PacketF> origin = load_origin(t.rays, i);
-    const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
-    const TriangleLanes<PacketF> lanes = intersect_triangle(
-        a, b, c, load_dir(t.rays, i), largest(origin), bits >> ((i - t.first) % group_size) & register_bits);
-    return {lanes.inside & (lanes.t > PacketF::load_aligned(t.rays.t_min + i)), lanes.t};
-  });
-}
-
-// A triangle of a run and the rays of a group that have to be tested against it.
-struct BeamPair {
-  std::uint32_t place; // 8 * group + lane
-  std::uint32_t rays;
-};
-
-struct BeamPairs {
-  BeamPair pairs[beam_groups * pair_lanes];
-  int count;
-  std::uint64_t rays;      // of all of them
-  std::uint32_t triangles; // bits of places
-};
-
-// Of the pairs in `touched` (bits of places) those that the sieve leaves.
-template <bool any>
-FASTRT_INLINE void find_pairs(const BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
-                              const FrameTriangles& f, std::uint32_t touched, std::uint64_t rays,
-                              BeamPairs& found) {
-  found.count = 0;
-  found.rays = 0;
-  found.triangles = 0;
-  alignas(32) std::int32_t ids[leaf_lanes];
-  primitives_of(run).store_aligned(ids);
-  for (; touched != 0; touched &= touched - 1) {
-    const auto place = static_cast<std::uint32_t>(__builtin_ctz(touched));
-    const int g = static_cast<int>(place / pair_lanes), lane = static_cast<int>(place % pair_lanes);
-    const std::uint32_t inside = rays_inside(t.beam.rays, f, lane, g) & rays_of_group(rays, g) &
-                                 ~rays_that_exclude(t.rays, t.first + g * group_size, ids[lane]);
-    found.pairs[found.count] = {place, inside};
-    found.count += inside != 0;
-    found.rays |= static_cast<std::uint64_t>(inside) << (g * group_size);
-    found.triangles |= static_cast<std::uint32_t>(inside != 0) << place;
-  }
-}
-
-// A test of all triangles of a run against one ray costs as much as one triangle against a register of rays,
-// times this / 16.
-inline constexpr int lone_test_share = 16;
-
-// Returns the rays that have a new hit.
-template <bool any>
-FASTRT_INLINE std::uint64_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
-                                           const BeamPairs& found) {
-  t.tests += static_cast<std::uint32_t>(__builtin_popcountll(found.rays) * run.lanes);
-  std::uint64_t changed = 0;
-  for (std::uint64_t rays = found.rays; rays != 0; rays &= rays - 1) {
-    const int at = __builtin_ctzll(rays), i = t.first + at;
-    LoneRay ray = lone_ray(t.rays, t.hits, i);
-    meet_triangles(ray, run, found.triangles >> (at / group_size * pair_lanes) & 0xFFU);
-    if (ray.primitive == t.hits.primitive[i]) continue;
-    t.hits.t[i] = ray.t;
-    t.hits.primitive[i] = ray.primitive;
-    changed |= std::uint64_t{1} << at;
-  }
-  return changed;
-}
-
-template <bool any>
-FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
-                                              const BeamPairs& found) {
-  std::uint64_t changed = 0;
-  for (int i = 0; i < found.count; ++i) {
-    const BeamPair& pair = found.pairs[i];
-    const int g = static_cast<int>(pair.place / pair_lanes), lane = static_cast<int>(pair.place % pair_lanes);
-    changed |= static_cast<std::uint64_t>(meet_triangle(t, run, lane, g, pair.rays)) << (g * group_size);
-  }
-  return changed;
-}
-
-// The places that hold triangles of their own.
-FASTRT_INLINE std::uint32_t places_of(const BlockRun<TriangleBlock>& run) {
-  return ((1U << run.lanes) - 1U) * 0x01010101U;
-}
-
-template <bool any>
-FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) {
-  const Beam& beam = t.beam;
-  FrameTriangles f;
-  const LeafF zero(0.0F), padding(beam.padding);
-  const Extents<LeafF> e{
-      padded(place_corners(run, beam.x, zero, zero, f.u), padding),
-      padded(place_corners(run, beam.y, zero, zero, f.v), padding),
-      padded(place_corners(run, beam.z, LeafF(beam.backwards ? -0.0F : 0.0F), LeafF(beam.depth), f.w),
-             padding)};
-  const std::uint32_t touched = touch_boxes(beam, e) & places_of(rays) & places_of(run);
-  if (touched == 0) return;
-  const LeafF side = max(e.u.high - e.u.low, max(e.v.high - e.v.low, e.w.high - e.w.low));
-  (side * LeafF(4.0F * beam.padding)).store_aligned(f.margin);
-  BeamPairs found;
-  find_pairs(t, run, f, touched, rays, found);
-  if (found.count == 0) return;
-  const std::uint64_t changed = __builtin_popcountll(found.rays) * widest <= found.count * lone_test_share
-                                    ? meet_run_alone(t, run, found)
-                                    : meet_run_together(t, run, found);
-  for (std::uint32_t groups = groups_with(changed); groups != 0; groups &= groups - 1) {
-    const int g = __builtin_ctz(groups);
-    shorten_group(t, g, rays_of_group(changed, g));
-  }
-}
 
 template <bool any>
 FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<SphereBlock>& run, std::uint64_t rays) {
@@ -216,7 +57,7 @@ template <bool any>
 FASTRT_INLINE void meet_waiting(BeamTraversal<any>& t, WaitingInstances& waiting) {
   while (waiting.count != 0) {
     const int i = waiting.take();
-    const std::uint64_t rays = waiting.rays[i] & rays_as_far_as(t.beam, waiting.near[i]);
+    const std::uint64_t rays = waiting.rays[i] & rays_as_far_as(t.beam.rays, waiting.near[i]);
     if (rays != 0) meet_instance(t, waiting.id[i], rays);
   }
 }

@@ -24,6 +24,7 @@ inline constexpr float far_origin = 64.0F; // scenes
 struct alignas(64) BeamRays {
   float x[beam_size], y[beam_size], slope_x[beam_size], slope_y[beam_size];
   float begin[beam_size], scale[beam_size]; // depth of the origin; depth per t
+  float far[beam_size];                     // the depth beyond which nothing matters to a ray
 };
 
 // The lines between which each group's rays lie.
@@ -41,7 +42,6 @@ struct Beam {
   std::uint64_t live; // bit i: ray i of the beam
   BeamRays rays;
   BeamGroups groups;
-  alignas(16) float far[beam_groups]; // the depth beyond which nothing matters to a group
 };
 
 FASTRT_INLINE std::uint32_t rays_of_group(std::uint64_t rays, int g) {
@@ -129,17 +129,13 @@ FASTRT_INLINE float most_of_group(const float* values) {
   return reduce_max(most);
 }
 
-// The depth beyond which nothing matters to the rays in `open` (bits) of group g.
-FASTRT_INLINE float beam_far(const Beam& beam, const HitBatch& hits, int first, int g, std::uint32_t open) {
-  PacketF most(-__builtin_inff());
-  for (int k = 0; k < group_size; k += widest) {
-    const int i = g * group_size + k;
+// How far the rays of group g look that have hit what is in `hits`.
+FASTRT_INLINE void find_far(Beam& beam, const HitBatch& hits, int first, int g) {
+  for (int i = g * group_size; i < (g + 1) * group_size; i += widest) {
     const PacketF begin = PacketF::load_aligned(beam.rays.begin + i);
     const PacketF way = load<PacketF>(hits.t + first + i) * PacketF::load_aligned(beam.rays.scale + i);
-    const PacketF far = (begin + way) + way * PacketF(depth_slack);
-    most = max(select(from_bits<widest>(open >> k & register_bits), far, PacketF(-__builtin_inff())), most);
+    ((begin + way) + way * PacketF(depth_slack)).store_aligned(beam.rays.far + i);
   }
-  return reduce_max(most);
 }
 
 FASTRT_INLINE void bound_group(Beam& beam, int g) {
@@ -159,13 +155,9 @@ FASTRT_INLINE void bound_group(Beam& beam, int g) {
 FASTRT_INLINE void leave_out_group(Beam& beam, int g) {
   BeamGroups& groups = beam.groups;
   groups.x0[g] = groups.y0[g] = groups.slope_x0[g] = groups.slope_y0[g] = __builtin_inff();
-  groups.x1[g] = groups.y1[g] = groups.slope_x1[g] = groups.slope_y1[g] = beam.far[g] = -__builtin_inff();
-}
-
-// The whole column is written, as it is read.
-FASTRT_INLINE void set_far(Beam& beam, int g, float far) {
-  const GroupF column = GroupF::load_aligned(beam.far);
-  select(from_bits<beam_groups>(1U << g), GroupF(far), column).store_aligned(beam.far);
+  groups.x1[g] = groups.y1[g] = groups.slope_x1[g] = groups.slope_y1[g] = -__builtin_inff();
+  for (int i = g * group_size; i < (g + 1) * group_size; i += widest)
+    PacketF(-__builtin_inff()).store_aligned(beam.rays.far + i);
 }
 
 // Moves depth 0 to where the first ray begins, and the lines with it.

@@ -9,7 +9,7 @@
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // With this many rays left in a subtree or fewer, each follows it alone.
-inline constexpr int lone_beam_rays = 6;
+inline constexpr int lone_beam_rays = 3;
 
 template <bool any>
 FASTRT_INLINE void go_on_alone(BeamTraversal<any>& t, std::uint32_t child, std::uint64_t rays) {
@@ -18,14 +18,12 @@ FASTRT_INLINE void go_on_alone(BeamTraversal<any>& t, std::uint32_t child, std::
   for (std::uint64_t bits = rays; bits != 0; bits &= bits - 1)
     which[count++] = static_cast<std::uint8_t>(t.first + __builtin_ctzll(bits));
   trace_lone_rays<any>(t.scene, {t.rays, t.hits, t.columns, child, nullptr, which, which + count});
-  for (int g = 0; g < beam_groups; ++g) {
-    std::uint32_t found = 0;
-    for (std::uint32_t bits = rays_of_group(rays, g); bits != 0; bits &= bits - 1) {
-      const int i = __builtin_ctz(bits);
-      if (t.hits.primitive[t.first + g * group_size + i] >= 0) found |= 1U << i;
-    }
-    if (found != 0) shorten_group(t, g, found);
+  std::uint64_t found = 0;
+  for (std::uint64_t bits = rays; bits != 0; bits &= bits - 1) {
+    const int i = __builtin_ctzll(bits);
+    found |= std::uint64_t{t.hits.primitive[t.first + i] >= 0} << i;
   }
+  shorten(t, found);
 }
 
 template <bool any>
@@ -38,7 +36,7 @@ static void traverse_beam(BeamTraversal<any>& t) noexcept {
   for (int top = 2; top != 1;) {
     const Waiting entry = stack.entries[--top];
     prefetch_child(t.scene, child_of(stack.entries[top - 1]));
-    const std::uint64_t rays = stack.rays[top] & t.open & rays_as_far_as(t.beam, near_of(entry));
+    const std::uint64_t rays = stack.rays[top] & t.open & rays_as_far_as(t.beam.rays, near_of(entry));
     if (rays == 0) continue;
     const std::uint32_t child = child_of(entry);
     if (is_leaf(child)) {
@@ -63,8 +61,7 @@ static BeamRest trace_beam(const GeometryView& scene, const RayBatch& rays, HitB
   const BeamRest left = make_beam(scene, rays, first, count, beam);
   if (beam.live == 0) return left;
   BeamTraversal<any> t{scene, rays, hits, columns, first, beam, beam.live};
-  for (int g = 0; g < count / group_size; ++g)
-    beam.far[g] = beam_far(beam, hits, first, g, rays_of_group(beam.live, g));
+  for (int g = 0; g < count / group_size; ++g) find_far(beam, hits, first, g);
   traverse_beam(t);
   count_tests(hits, t.nodes, t.tests);
   return left;

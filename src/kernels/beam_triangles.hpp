@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// A beam and triangles: they are sieved, ray by ray where few rays reach the leaf; what is left is tested
+// with a register full of rays or of triangles, whichever takes fewer tests.
+#pragma once
+
+#include "src/kernels/beam_hits.hpp"
+#include "src/kernels/beam_sieve.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// What the sieve leaves of a run.
+struct SievedRun {
+  alignas(16) std::uint8_t triangles[beam_size]; // of each ray: bits
+  std::uint64_t rays;                            // that have any
+  std::uint32_t places;                          // pairs of a group and a triangle: see pair_lanes
+
+  // The rays of group g that may hit triangle i.
+  [[gnu::always_inline]] inline std::uint32_t rays_of(int g, int i) const {
+    const __m128i group = _mm_load_si128(reinterpret_cast<const __m128i*>(triangles + g * group_size));
+    const __m128i bit_to_sign = _mm_cvtsi32_si128(7 - i);
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_sll_epi16(group, bit_to_sign)));
+  }
+};
+
+template <bool any>
+FASTRT_INLINE void sieve_run(const BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                             std::uint64_t rays, SievedRun& sieved) {
+  __builtin_memset(sieved.triangles, 0, sizeof(sieved.triangles));
+  sieved.rays = 0;
+  sieved.places = 0;
+  const std::uint32_t lanes = (1U << run.lanes) - 1U;
+  const FrameTriangles<PacketF> triangles = for_rays(place_triangles(t.beam, run));
+  const PacketI primitives = as_ints(for_rays(as_floats<LeafF>(primitives_of(run))));
+  const auto keep = [&](int i, std::uint32_t around) {
+    sieved.triangles[i] = static_cast<std::uint8_t>(around);
+    sieved.rays |= std::uint64_t{around != 0} << i;
+    sieved.places |= around << (i / group_size * pair_lanes);
+  };
+  while (rays != 0) {
+    const int i = __builtin_ctzll(rays);
+    rays &= rays - 1;
+    const int j = rays_at_once == 2 && rays != 0 ? __builtin_ctzll(rays) : i;
+    if (rays_at_once == 2) rays &= rays - 1;
+    const PacketM excluded = simd::bool_cast(primitives == of_rays(t.rays.exclude + t.first, i, j));
+    const std::uint32_t around = triangles_around(t.beam.rays, triangles, i, j) & ~to_bits(excluded);
+    keep(i, around & lanes);
+    if (rays_at_once == 2) keep(j, around >> (widest - leaf_lanes) & lanes);
+  }
+}
+
+template <bool any>
+FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int lane,
+                                          int g, std::uint32_t bits) {
+  const V3<PacketF> v0 = spread_vertex<PacketF>(run, 0, lane), v1 = spread_vertex<PacketF>(run, 1, lane),
+                    v2 = spread_vertex<PacketF>(run, 2, lane);
+  return meet_beam_group(t, g, bits, run.primitive(lane), [&](int i) -> MetLanes {
+    const V3<PacketF> origin = load_origin(t.rays, i);
+    const V3<PacketF> a = v0 - origin, b = v1 - origin, c = v2 - origin;
+    const TriangleLanes<PacketF> lanes = intersect_triangle(
+        a, b, c, load_dir(t.rays, i), largest(origin), bits >> ((i - t.first) % group_size) & register_bits);
+    return {lanes.inside & (lanes.t > PacketF::load_aligned(t.rays.t_min + i)), lanes.t};
+  });
+}
+
+// Returns the rays that have a new hit.
+template <bool any>
+FASTRT_INLINE std::uint64_t meet_run_alone(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                           const SievedRun& found) {
+  t.tests += static_cast<std::uint32_t>(__builtin_popcountll(found.rays) * run.lanes);
+  std::uint64_t changed = 0;
+  for (std::uint64_t rays = found.rays; rays != 0; rays &= rays - 1) {
+    const int at = __builtin_ctzll(rays), i = t.first + at;
+    LoneRay ray = lone_ray(t.rays, t.hits, i);
+    meet_triangles(ray, run, found.triangles[at]);
+    if (ray.primitive == t.hits.primitive[i]) continue;
+    t.hits.t[i] = ray.t;
+    t.hits.primitive[i] = ray.primitive;
+    changed |= std::uint64_t{1} << at;
+  }
+  return changed;
+}
+
+template <bool any>
+FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                              const SievedRun& found) {
+  std::uint64_t changed = 0;
+  for (std::uint32_t places = found.places; places != 0; places &= places - 1) {
+    const int place = __builtin_ctz(places), g = place / pair_lanes, lane = place % pair_lanes;
+    changed |= static_cast<std::uint64_t>(meet_triangle(t, run, lane, g, found.rays_of(g, lane)))
+               << (g * group_size);
+  }
+  return changed;
+}
+
+// The places that hold triangles of their own.
+FASTRT_INLINE std::uint32_t places_of(const BlockRun<TriangleBlock>& run) {
+  return ((1U << run.lanes) - 1U) * 0x01010101U;
+}
+
+// Many rays: each triangle is held against the groups that its box touches. Returns the rays that have a new
+// hit.
+template <bool any>
+[[gnu::noinline]] static std::uint64_t
+meet_by_groups(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) noexcept {
+  const FrameTriangles<LeafF> f = place_triangles(t.beam, run);
+  const LeafF padding(t.beam.padding);
+  const Extents<LeafF> boxes{extent_of(f.u, padding), extent_of(f.v, padding), extent_of(f.w, padding)};
+  std::uint32_t places = touch_boxes(t.beam, boxes) & places_of(rays) & places_of(run);
+  if (places == 0) return 0;
+  const TriangleColumns columns = store_triangles(f);
+  std::uint64_t changed = 0;
+  for (; places != 0; places &= places - 1) {
+    const int place = __builtin_ctz(places), g = place / pair_lanes, i = place % pair_lanes;
+    const std::uint32_t inside = rays_inside(t.beam.rays, columns, i, g) & rays_of_group(rays, g) &
+                                 ~rays_that_exclude(t.rays, t.first + g * group_size, run.primitive(i));
+    if (inside == 0) continue;
+    changed |= static_cast<std::uint64_t>(meet_triangle(t, run, i, g, inside)) << (g * group_size);
+  }
+  return changed;
+}
+
+// More rays than this are held against triangles by their groups.
+inline constexpr int most_single_rays = 32;
+
+// (A test of a run's triangles against one ray costs as much as one of a triangle against a register of
+// rays.)
+template <bool any>
+FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) {
+  if (__builtin_popcountll(rays) > most_single_rays) {
+    shorten(t, meet_by_groups(t, run, rays));
+    return;
+  }
+  SievedRun found;
+  sieve_run(t, run, rays, found);
+  if (found.rays == 0) return;
+  const bool alone =
+      __builtin_popcountll(found.rays) * widest <= __builtin_popcount(found.places) * group_size;
+  shorten(t, alone ? meet_run_alone(t, run, found) : meet_run_together(t, run, found));
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
