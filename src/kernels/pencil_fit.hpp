@@ -15,7 +15,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // How far a ray may stray from the pencil on its way, as a share of what 16 rays spread (their standard
 // deviation).
-inline constexpr float pencil_stray = 0.125F;
+inline constexpr float pencil_stray = 0.25F;
 // How small the pencil may get, as a share of its width at depth 0.
 inline constexpr float least_width = 0.125F;
 

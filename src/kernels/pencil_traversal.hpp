@@ -10,9 +10,9 @@
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // Fewer rays than this are no pencil; they go as beams.
-inline constexpr int least_pencil = 32;
-// Pencils of a batch at most, and groups that are tried in vain for each of them and before the first.
-inline constexpr int max_pencils = 8, max_pencil_failures = 2;
+inline constexpr int least_pencil = 64;
+// Groups of a batch that are tried in vain.
+inline constexpr int max_pencil_failures = 2;
 
 using PencilTraversal = TileTraversal<false, PencilView>;
 
@@ -94,19 +94,19 @@ static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBi
   const float most = largest_origin(rays, live), size = larger(most, scene.largest_coordinate);
   if (!(most <= far_origin * scene.largest_coordinate && size < beam_limit && size > 1.0F / beam_limit))
     return false;
-  int pencils = 0, failures = 0;
-  for (int g = 0; g < batch_groups && pencils < max_pencils && failures < max_pencil_failures * (1 + pencils);
-       ++g) {
+  int failures = 0;
+  bool some = false;
+  for (int g = 0; g < batch_groups && failures < max_pencil_failures; ++g) {
     if (__builtin_popcount(live.bits[g]) < group_size / 2) continue;
     if (failures != 0 && !leave_together(rays, g, live.bits[g])) continue;
     if (trace_pencil(scene, rays, hits, size, g, live))
-      ++pencils;
+      some = true;
     else
       ++failures;
   }
   // (Rays that are not live hit nothing.)
   for (int g = 0; g < batch_groups; ++g) looking.of_group[g] = live.bits[g];
-  return pencils != 0;
+  return some;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
