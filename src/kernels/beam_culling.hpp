@@ -150,18 +150,19 @@ struct StoredExtents {
   }
 };
 
-// The rays of group g that can touch a box.
+// The rays of group g that can touch a box, from where they begin on.
 FASTRT_INLINE std::uint32_t touch_rays(const BeamRays& rays, const LoneExtents& e, int g) {
-  const PacketF begin(e.begin), end(e.end);
+  const PacketF end(e.end);
   std::uint32_t bits = 0;
   for (int k = 0; k < group_size; k += widest) {
     const int i = g * group_size + k;
     const PacketF x = PacketF::load_aligned(rays.x + i), y = PacketF::load_aligned(rays.y + i);
     const PacketF sx = PacketF::load_aligned(rays.slope_x + i), sy = PacketF::load_aligned(rays.slope_y + i);
+    const PacketF from = PacketF::load_aligned(rays.begin + i), begin = max(from, PacketF(e.begin));
     const PacketF xb = cull_mul_add(sx, begin, x), xe = cull_mul_add(sx, end, x);
     const PacketF yb = cull_mul_add(sy, begin, y), ye = cull_mul_add(sy, end, y);
     const PacketM met = (min(xb, xe) <= PacketF(e.u1)) & (max(xb, xe) >= PacketF(e.u0)) &
-                        (min(yb, ye) <= PacketF(e.v1)) & (max(yb, ye) >= PacketF(e.v0));
+                        (min(yb, ye) <= PacketF(e.v1)) & (max(yb, ye) >= PacketF(e.v0)) & (from <= end);
     bits |= to_bits(met) << k;
   }
   return bits;
