@@ -68,6 +68,8 @@ struct PencilEdges {
   EdgeLines lines;
   alignas(64) float margin[widest];
   std::uint32_t unsure;
+  // Of the planes: a ray that begins at o has a triangle ahead where normal . o <= offset.
+  alignas(64) float normal_u[widest], normal_v[widest], normal_w[widest], offset[widest];
 };
 
 // Corners relative to the frame's origin. A ray that hits a triangle passes its box at a point P, and the
@@ -85,8 +87,9 @@ FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<PacketF>& a,
   const PacketF most_x(view.most_x), most_y(view.most_y), most_xy(view.most_x * view.most_y);
   const PacketF away = max(largest(p), max(largest(q), largest(r))) + PacketF(f.largest_begin);
   const PacketF lets = side * (away * PacketF(pencil_line_margin)), slope(f.stray_slope);
-  const PacketF normal = max(abs((edges[0].normal_u + edges[1].normal_u) + edges[2].normal_u),
-                             abs((edges[0].normal_v + edges[1].normal_v) + edges[2].normal_v));
+  const PacketF normal_u = (edges[0].normal_u + edges[1].normal_u) + edges[2].normal_u,
+                normal_v = (edges[0].normal_v + edges[1].normal_v) + edges[2].normal_v;
+  const PacketF normal = max(abs(normal_u), abs(normal_v));
   const PacketF turns_off = slope * normal, turn = (edges[0].c + edges[1].c) + edges[2].c;
   const PacketF turns_by = cull_mul_add(abs((edges[0].a + edges[1].a) + edges[2].a), most_x,
                                         cull_mul_add(abs((edges[0].b + edges[1].b) + edges[2].b), most_y,
@@ -95,6 +98,12 @@ FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<PacketF>& a,
   out.unsure = ~to_bits(sure);
   const PacketF zero(0.0F), sign = select(sure, sign_bit(turn), zero), square = side * side;
   const PacketF margin = cull_mul_add(PacketF(2.0F), turns_off, cull_mul_add(slope, square, lets));
+  const PacketF offset = cull_mul_add(normal_u, p.x, cull_mul_add(normal_v, p.y, turn * p.z));
+  flip(normal_u, sign).store_aligned(out.normal_u);
+  flip(normal_v, sign).store_aligned(out.normal_v);
+  flip(turn, sign).store_aligned(out.normal_w);
+  select(sure, cull_mul_add(lets, away, flip(offset, sign)), PacketF(__builtin_inff()))
+      .store_aligned(out.offset);
   PacketF most = zero;
   for (int e = 0; e < 3; ++e) {
     const PencilEdge& line = edges[e];
@@ -105,6 +114,20 @@ FASTRT_INLINE void lines_in_pencil(const PencilView& view, const V3<PacketF>& a,
                flip(line.c, sign) + select(sure, strays + margin, zero));
   }
   (most + cull_mul_add(slope * square, PacketF(5.0F), lets)).store_aligned(out.margin);
+}
+
+// The rays of group g that have triangle i ahead of them; all, if it is unsure.
+FASTRT_INLINE std::uint32_t rays_towards(const PencilPoints& points, const PencilEdges& edges, int i, int g) {
+  std::uint32_t bits = 0;
+  for (int k = 0; k < group_size; k += widest) {
+    const int r = g * group_size + k;
+    const PacketF at =
+        cull_mul_add(PacketF(edges.normal_u[i]), PacketF::load_aligned(points.begin_x + r),
+                     cull_mul_add(PacketF(edges.normal_v[i]), PacketF::load_aligned(points.begin_y + r),
+                                  PacketF(edges.normal_w[i]) * PacketF::load_aligned(points.begin + r)));
+    bits |= to_bits(at <= PacketF(edges.offset[i])) << k;
+  }
+  return bits;
 }
 
 // Of the groups in `bits`, those whose rectangle reaches inside all edges of triangle i; all, if it is

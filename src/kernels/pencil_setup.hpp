@@ -10,7 +10,9 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 // Rays that take no part are infinite.
 struct alignas(64) PencilPoints : TilePoints {
   float minus_x[batch_size], minus_y[batch_size];
-  float begin[batch_size], minus_begin[batch_size], minus_scale[batch_size];
+  float begin_x[batch_size], begin_y[batch_size],
+      begin[batch_size]; // of where the rays begin: u, v and depth
+  float minus_begin[batch_size], minus_scale[batch_size];
 };
 
 struct PencilView {
@@ -58,6 +60,8 @@ FASTRT_INLINE std::uint32_t place_rays(const PencilFrame& f, const RayBatch& ray
   select(mask, y, nothing).store_aligned(points.y + i);
   select(mask, negate(x), nothing).store_aligned(points.minus_x + i);
   select(mask, negate(y), nothing).store_aligned(points.minus_y + i);
+  r.begin_x.store_aligned(points.begin_x + i);
+  r.begin_y.store_aligned(points.begin_y + i);
   select(mask, r.begin, nothing).store_aligned(points.begin + i);
   select(mask, negate(r.begin), nothing).store_aligned(points.minus_begin + i);
   select(mask, negate(r.scale), nothing).store_aligned(points.minus_scale + i);

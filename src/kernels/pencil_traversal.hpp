@@ -30,8 +30,10 @@ FASTRT_INLINE void meet_run(PencilTraversal& tile, const TriangleRun& run) {
   PencilEdges edges;
   // (With rounding: corners of tiny triangles may be as far apart as they are wrong.)
   lines_in_pencil(tile.view, a, b, c, largest(high - low) + PacketF(f.padding), edges);
-  for_each_pair(tile, run, edges, some, touched,
-                [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
+  for_each_pair(tile, run, edges, some, touched, [&](int i, int g, std::uint32_t rays) {
+    const std::uint32_t towards = rays & rays_towards(tile.points, edges, i, g);
+    if (towards != 0) meet_own_origins(tile, run, i, g, towards);
+  });
 }
 
 // The largest |coordinate| of the live rays' origins.
