@@ -97,8 +97,8 @@ FASTRT_INLINE void start_ray(const GeometryView& scene, LoneQueue& queue, LoneLi
   copy_ray(queue.columns, i, slot.ray.own);
   clear_stack(slot);
   line_up(scene, lines, slot,
-          queue.later != nullptr ? next_of_later<any>(*queue.later, slot)
-                                 : make_waiting(queue.start, 0.0F, size_bits));
+          __builtin_expect(queue.later != nullptr, 0) ? next_of_later<any>(*queue.later, slot)
+                                                      : make_waiting(queue.start, 0.0F, size_bits));
 }
 
 FASTRT_INLINE void end_ray(HitBatch& hits, const LoneSlot& slot) {
