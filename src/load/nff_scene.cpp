@@ -95,7 +95,10 @@ std::uint32_t NffScene::push_positions(std::span<const Vec3> vertices) {
 // The vertices begin at position `first`. A normal of 0 is none.
 void NffScene::push_triangles(std::span<const Vec3> vertices, std::uint32_t first,
                               std::span<const Vec3> normals) {
-  triangulator_.run(vertices, triangles_);
+  if (vertices.size() == 3)
+    triangles_.assign(1, {0, 1, 2});
+  else
+    triangulator_.run(vertices, triangles_);
   const auto first_normal = static_cast<std::uint32_t>(desc_.normals.size());
   for (const Vec3& normal : normals) desc_.normals.push_back(normal);
   has_normals_ = has_normals_ || !normals.empty();
@@ -116,8 +119,14 @@ void NffScene::push_triangles(std::span<const Vec3> vertices, std::uint32_t firs
 }
 
 NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
-  PolygonColumns& p = desc_.polygons;
   const std::uint32_t first = push_positions(vertices);
+  if (vertices.size() == 3) {
+    const glm::dvec3 a(vertices[0]), b(vertices[1]), c(vertices[2]);
+    if (!(glm::length(glm::cross(b - a, c - a)) > 0.0)) return Found::empty;
+    push_triangles(vertices, first, {});
+    return Found::good;
+  }
+  PolygonColumns& p = desc_.polygons;
   for (std::uint32_t i = 0; i < vertices.size(); ++i) p.vertex.push_back(first + i);
   p.vertex_end.push_back(static_cast<std::uint32_t>(p.vertex.size()));
   p.contour_end.push_back(static_cast<std::uint32_t>(p.vertex_end.size()));
@@ -125,7 +134,7 @@ NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
   Aabb box;
   for (const Vec3& vertex : vertices) box.extend(vertex);
   const bool bent = plane.deviation > most_bent * static_cast<double>(glm::length(box.extent()));
-  if (plane.usable && !bent && vertices.size() > 3) {
+  if (plane.usable && !bent) {
     p.material.push_back(material_);
     p.object.push_back(static_cast<std::uint32_t>(desc_.object_names.size() - 1));
     return Found::good;
