@@ -165,7 +165,8 @@ struct ShadingView {
   const MaterialRow* materials;
   const LightRow* lights;
   std::uint32_t triangle_count, sphere_count, light_count;
-  std::uint32_t has_transmission; // some material lets light through
+  std::uint32_t sends_on;         // some material reflects, or lets light through ..
+  std::uint32_t has_transmission; // .. the latter
   std::uint32_t has_absorption;
   std::uint32_t has_textures; // some material has
   float ambient[3], background[3];

@@ -104,6 +104,7 @@ void fill_shading_view(Tracer::Parts& parts) {
   view.light_count = static_cast<std::uint32_t>(parts.lights.size());
   view.has_transmission = parts.scene.has_transmission();
   // Where nothing lets light through no ray is ever inside anything, and rays' media are not kept.
+  for (const MaterialRow& row : parts.materials) view.sends_on |= row.has_mirror | row.has_transmit;
   for (const MaterialRow& row : parts.materials) view.has_textures |= row.textures != nullptr ? 1U : 0U;
   for (const MaterialRow& row : parts.materials)
     view.has_absorption |= view.has_transmission != 0 ? row.has_absorption : 0U;

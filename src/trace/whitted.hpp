@@ -158,7 +158,7 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
     const PathV light = emitted_light(scene.shading, scratch.surface, bits, i);
     accumulate(rays, load_weight(rays, i), light, bits, i, scratch);
   }
-  if (rays.depth >= job.max_depth) return;
+  if (rays.depth >= job.max_depth || scene.shading.sends_on == 0) return;
   PathBatch& refracted = take_batch(scratch, rays.depth + 1);
   PathBatch& reflected = take_batch(scratch, rays.depth + 1);
   make_secondary_rays(job, rays, scratch, reflected, refracted);
