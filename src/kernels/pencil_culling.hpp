@@ -14,8 +14,12 @@ FASTRT_INLINE Rectangles<F> project_extent(const PencilFrame& f, const F& u0, co
   const F one(1.0F), begin = max(w0, F(f.near)), spread_u(f.spread_u), spread_v(f.spread_v);
   const F wide0 = one / cull_mul_add(spread_u, begin, one), wide1 = one / cull_mul_add(spread_u, w1, one);
   const F high0 = one / cull_mul_add(spread_v, begin, one), high1 = one / cull_mul_add(spread_v, w1, one);
-  return {min(u0 * wide0, u0 * wide1), max(u1 * wide0, u1 * wide1), min(v0 * high0, v0 * high1),
-          max(v1 * high0, v1 * high1), w0};
+  return {min(u0 * wide0, u0 * wide1),
+          max(u1 * wide0, u1 * wide1),
+          min(v0 * high0, v0 * high1),
+          max(v1 * high0, v1 * high1),
+          w0,
+          w1};
 }
 
 // The rectangles of a run's spheres. (Axes that lean are longer than 1, and spheres reach farther along

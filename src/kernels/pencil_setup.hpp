@@ -17,6 +17,7 @@ struct alignas(64) PencilPoints : TilePoints {
 
 struct PencilView {
   using Points = PencilPoints;
+  static constexpr bool begins_apart = true, strays = true;
   PencilFrame frame;
   ExtentAxis u, v, w;
   TileGroups groups;
@@ -97,6 +98,7 @@ FASTRT_INLINE void bound_groups(const PencilPoints& points, const PencilErrors& 
   alignas(64) float begin[batch_groups];
   min_of_groups(points.begin, begin);
   f.near = least_of(begin) - f.padding;
+  set_begins(f, begin, groups);
 }
 
 FASTRT_INLINE void aim_view(PencilView& view) {

@@ -25,7 +25,7 @@ FASTRT_INLINE void meet_run(PencilTraversal& tile, const TriangleRun& run) {
   const V3<PacketF> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
   const V3<PacketF> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
   std::uint32_t touched[widest];
-  const std::uint32_t some = touch_triangles(tile.view.groups, run, project_box(f, low, high), touched);
+  const std::uint32_t some = touch_triangles(tile.view, run, project_box(f, low, high), touched);
   if (some == 0) return;
   PencilEdges edges;
   // (With rounding: corners of tiny triangles may be as far apart as they are wrong.)

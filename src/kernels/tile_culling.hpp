@@ -6,10 +6,10 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// A rectangle per lane, and the depth at which its contents begin.
+// A rectangle per lane, and the depths at which its contents begin and end.
 template <class F>
 struct Rectangles {
-  F x0, x1, y0, y1, near;
+  F x0, x1, y0, y1, near, end;
 };
 
 // The part of the plane that a box covers, given its extent along u, v, w seen from the origin. Behind the
@@ -17,7 +17,7 @@ struct Rectangles {
 template <class F>
 FASTRT_INLINE Rectangles<F> project_extent(const TileFrame& f, const F& u0, const F& u1, const F& v0,
                                            const F& v1, const F& w0, const F& w1) {
-  if (!f.perspective) return {u0, u1, v0, v1, w0};
+  if (!f.perspective) return {u0, u1, v0, v1, w0, w1};
   const F zero(0.0F), one(1.0F), everywhere(__builtin_inff()), nowhere(-__builtin_inff());
   const F nearest = one / w0, farthest = one / w1;
   const MaskOf<F> around = w0 <= zero;
@@ -29,8 +29,12 @@ FASTRT_INLINE Rectangles<F> project_extent(const TileFrame& f, const F& u0, cons
   };
   const F x0 = low(u0), x1 = high(u1), y0 = low(v0), y1 = high(v1);
   const F margin(rectangle_margin);
-  return {x0 - (abs(x0) + one) * margin, x1 + (abs(x1) + one) * margin, y0 - (abs(y0) + one) * margin,
-          y1 + (abs(y1) + one) * margin, w0};
+  return {x0 - (abs(x0) + one) * margin,
+          x1 + (abs(x1) + one) * margin,
+          y0 - (abs(y0) + one) * margin,
+          y1 + (abs(y1) + one) * margin,
+          w0,
+          w1};
 }
 
 // Which of a node's columns hold the least and the greatest corner along an axis of the frame, and the axis
@@ -71,12 +75,20 @@ FASTRT_INLINE Extent<F> box_extent(const ExtentAxis& a, const float* columns, co
 // The projection with what node tests need of it.
 struct TileView {
   using Points = TilePoints;
+  // Whether groups begin at depths of their own, so that they are behind boxes that others reach.
+  static constexpr bool begins_apart = false;
+  static constexpr bool strays = false; // rays may be elsewhere than their points
   TileFrame frame;
   ExtentAxis u, v, w;
   ExtentAxis
       sides[4]; // inner normals of the planes through the origin and the sides of the batch's rectangle
   TileGroups groups;
   float x0, x1, y0, y1, far; // around all groups
+};
+
+// The same of parallel rays.
+struct ParallelView : TileView {
+  static constexpr bool begins_apart = true;
 };
 
 template <class View>
@@ -106,16 +118,18 @@ FASTRT_INLINE void aim_view(TileView& view) {
   view.sides[3] = extent_axis(f, tilted(f.v, f.w, -1.0F, view.y1));
 }
 
-// Groups that a rectangle touches and that still look as far as `near`.
+// Groups that a rectangle touches and that look from before `end` as far as `near`.
+template <bool apart>
 FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, float x1, float y0, float y1,
-                                           float near) {
+                                           float near, float end) {
   std::uint32_t bits = 0;
   for (int g = 0; g < batch_groups; g += widest) {
-    const PacketM touched = (PacketF::load_aligned(groups.x0 + g) <= PacketF(x1)) &
-                            (PacketF::load_aligned(groups.x1 + g) >= PacketF(x0)) &
-                            (PacketF::load_aligned(groups.y0 + g) <= PacketF(y1)) &
-                            (PacketF::load_aligned(groups.y1 + g) >= PacketF(y0)) &
-                            (PacketF::load_aligned(groups.far + g) >= PacketF(near));
+    PacketM touched = (PacketF::load_aligned(groups.x0 + g) <= PacketF(x1)) &
+                      (PacketF::load_aligned(groups.x1 + g) >= PacketF(x0)) &
+                      (PacketF::load_aligned(groups.y0 + g) <= PacketF(y1)) &
+                      (PacketF::load_aligned(groups.y1 + g) >= PacketF(y0)) &
+                      (PacketF::load_aligned(groups.far + g) >= PacketF(near));
+    if (apart) touched = touched & (PacketF::load_aligned(groups.begin + g) <= PacketF(end));
     bits |= to_bits(touched) << g;
   }
   return bits;
@@ -127,7 +141,7 @@ inline constexpr int group_cost = 5, rectangle_cost = widest == batch_groups ? 7
 
 // The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
 // `lanes`; 0 elsewhere. Returns the lanes that touch any.
-template <class F>
+template <bool apart, class F>
 FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles<F>& r, std::uint32_t lanes,
                                          std::uint32_t groups, std::uint32_t* touched) {
   constexpr int width = width_of<F>;
@@ -136,27 +150,35 @@ FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles
     std::uint32_t some = 0;
     for (; groups != 0; groups &= groups - 1) {
       const int g = __builtin_ctz(groups);
-      const MaskOf<F> met = (r.x0 <= F(all.x1[g])) & (r.x1 >= F(all.x0[g])) & (r.y0 <= F(all.y1[g])) &
-                            (r.y1 >= F(all.y0[g])) & (r.near <= F(all.far[g]));
+      MaskOf<F> met = (r.x0 <= F(all.x1[g])) & (r.x1 >= F(all.x0[g])) & (r.y0 <= F(all.y1[g])) &
+                      (r.y1 >= F(all.y0[g])) & (r.near <= F(all.far[g]));
+      if (apart) met = met & (r.end >= F(all.begin[g]));
       bits = select_ints<F>(met, bits | IntsOf<F>(static_cast<std::int32_t>(1U << g)), bits);
       some |= to_bits(met);
     }
     bits.store_unaligned(reinterpret_cast<std::int32_t*>(touched));
     return some & lanes;
   }
-  alignas(32) float x0[width], x1[width], y0[width], y1[width], near[width];
+  alignas(32) float x0[width], x1[width], y0[width], y1[width], near[width], end[width];
   r.x0.store_aligned(x0);
   r.x1.store_aligned(x1);
   r.y0.store_aligned(y0);
   r.y1.store_aligned(y1);
   r.near.store_aligned(near);
+  r.end.store_aligned(end);
   std::uint32_t some = 0;
   for (; lanes != 0; lanes &= lanes - 1) {
     const int i = __builtin_ctz(lanes);
-    touched[i] = touched_groups(all, x0[i], x1[i], y0[i], y1[i], near[i]) & groups;
+    touched[i] = touched_groups<apart>(all, x0[i], x1[i], y0[i], y1[i], near[i], end[i]) & groups;
     some |= touched[i] != 0 ? 1U << i : 0U;
   }
   return some;
+}
+
+template <class View, class F>
+FASTRT_INLINE std::uint32_t touch_groups(const View& view, const Rectangles<F>& r, std::uint32_t lanes,
+                                         std::uint32_t groups, std::uint32_t* touched) {
+  return touch_groups<View::begins_apart>(view.groups, r, lanes, groups, touched);
 }
 
 // A node's children as the batch sees them; bits: those that some group touches, and which groups do.
@@ -199,7 +221,7 @@ FASTRT_INLINE void touch_children(const View& view, const WideNode& node, std::u
                           (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
     const std::uint32_t bits = boxes_ahead(view, columns, w.low, to_bits(met));
     r.near.store_aligned(out.near + half);
-    if (bits != 0) out.bits |= touch_groups(view.groups, r, bits, groups, out.groups + half) << half;
+    if (bits != 0) out.bits |= touch_groups(view, r, bits, groups, out.groups + half) << half;
   }
 }
 
@@ -223,14 +245,19 @@ struct ProjectedTriangles {
 };
 
 // The rectangles around corners.
-FASTRT_INLINE Rectangles<PacketF> bound_corners(const ProjectedCorners& p, const PacketF& near) {
-  return {min(p.ax, min(p.bx, p.cx)), max(p.ax, max(p.bx, p.cx)), min(p.ay, min(p.by, p.cy)),
-          max(p.ay, max(p.by, p.cy)), near};
+FASTRT_INLINE Rectangles<PacketF> bound_corners(const ProjectedCorners& p, const PacketF& near,
+                                                const PacketF& end) {
+  return {min(p.ax, min(p.bx, p.cx)),
+          max(p.ax, max(p.bx, p.cx)),
+          min(p.ay, min(p.by, p.cy)),
+          max(p.ay, max(p.by, p.cy)),
+          near,
+          end};
 }
 
 FASTRT_INLINE Rectangles<PacketF> widened(const Rectangles<PacketF>& r, const PacketF& mx,
                                           const PacketF& my) {
-  return {r.x0 - mx, r.x1 + mx, r.y0 - my, r.y1 + my, r.near};
+  return {r.x0 - mx, r.x1 + mx, r.y0 - my, r.y1 + my, r.near, r.end};
 }
 
 // What edges let through together, with rounding: at a distance of 1, and of parallel rays in paddings.
@@ -245,12 +272,12 @@ FASTRT_INLINE PacketF beyond_edges(const ProjectedCorners& p, const PacketF& sid
   return cull_mul_add(side, share, PacketF(1e-30F)) * cull_inverse(area);
 }
 
-// The rectangles in which parallel rays may hit triangles. deep: the difference of the depths.
+// The rectangles in which parallel rays may hit triangles.
 FASTRT_INLINE Rectangles<PacketF> bound_parallel(const ProjectedCorners& p, const PacketF& near,
-                                                 const PacketF& deep, const PacketF& padding) {
-  const Rectangles<PacketF> r = bound_corners(p, near);
+                                                 const PacketF& far, const PacketF& padding) {
+  const Rectangles<PacketF> r = bound_corners(p, near, far + padding);
   const PacketF width = r.x1 - r.x0, height = r.y1 - r.y0;
-  const PacketF share = ((width + height) + deep) * (PacketF(edge_paddings) * padding);
+  const PacketF share = ((width + height) + (far - near)) * (PacketF(edge_paddings) * padding);
   const PacketF margin = padding + beyond_edges(p, max(width, height), share);
   return widened(r, margin, margin);
 }
@@ -259,7 +286,7 @@ FASTRT_INLINE Rectangles<PacketF> bound_parallel(const ProjectedCorners& p, cons
 FASTRT_INLINE Rectangles<PacketF> bound_perspective(const ProjectedCorners& p, const PacketF& near,
                                                     const PacketF& far, const PacketF& scale,
                                                     const PacketF& padding) {
-  const Rectangles<PacketF> r = bound_corners(p, near);
+  const Rectangles<PacketF> r = bound_corners(p, near, far);
   const PacketF one(1.0F), x = (abs(r.x0) + abs(r.x1)) + one, y = abs(r.y0) + abs(r.y1), out = x + y;
   const PacketF width = r.x1 - r.x0, height = r.y1 - r.y0, extent = width + height;
   const PacketF share = cull_mul_add(extent + out, cull_mul_sub(far, scale, one), extent);
@@ -298,7 +325,7 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
   const PacketF near = min(aw, min(bw, cw)) - padding, far = max(aw, max(bw, cw));
   ProjectedCorners p{cull_dot(a, u), cull_dot(a, v), cull_dot(b, u),
                      cull_dot(b, v), cull_dot(c, u), cull_dot(c, v)};
-  if (!view.frame.perspective) return {bound_parallel(p, near, far - near, padding), p};
+  if (!view.frame.perspective) return {bound_parallel(p, near, far, padding), p};
   const PacketF ai = one / aw, bi = one / bw, ci = one / cw, scale = max(ai, max(bi, ci));
   p = {p.ax * ai, p.ay * ai, p.bx * bi, p.by * bi, p.cx * ci, p.cy * ci};
   const Rectangles<PacketF> r = bound_perspective(p, near, far, scale, padding);
@@ -313,7 +340,7 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
     y0 = select(around, nowhere, y0);
     y1 = select(around, everywhere, y1);
   }
-  return {{x0, x1, y0, y1, near}, p};
+  return {{x0, x1, y0, y1, near, far}, p};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

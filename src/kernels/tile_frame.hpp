@@ -24,10 +24,12 @@ struct TileFrame {
   bool perspective; // rays from one origin; else parallel ones
 };
 
-// Per group: rectangle and farthest depth that matters; an empty rectangle where there is nothing left to do.
+// Per group: rectangle and the depths between which it looks; an empty rectangle where there is nothing left
+// to do.
 struct alignas(64) TileGroups {
   float x0[batch_groups], x1[batch_groups], y0[batch_groups], y1[batch_groups];
   float far[batch_groups];
+  float begin[batch_groups];        // of views whose begins_apart is true
   float depth_scale[batch_groups];  // largest d.w of the group: t * depth_scale bounds a depth
   float depth_offset[batch_groups]; // largest origin.w of the group, for parallel rays
 };

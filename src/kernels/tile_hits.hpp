@@ -24,7 +24,7 @@ struct TriangleRun {
 };
 
 // All that a traversal carries. View: how the rays are seen.
-template <bool any, class View = TileView>
+template <bool any, class View>
 struct TileTraversal {
   TileTraversal(const GeometryView& s, const RayBatch& r, HitBatch& h, const LiveRays& l)
       : scene(s), rays(r), hits(h) {

@@ -28,7 +28,7 @@ FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const BlockRun<Spher
                             std::uint32_t groups) {
   std::uint32_t touched[leaf_lanes];
   const Rectangles<LeafF> boxes = project_spheres(tile.view.frame, run);
-  std::uint32_t some = touch_groups(tile.view.groups, boxes, lanes_of(run), groups, touched);
+  std::uint32_t some = touch_groups(tile.view, boxes, lanes_of(run), groups, touched);
   if (some == 0) return;
   const StoredRectangles rectangles(boxes);
   for (; some != 0; some &= some - 1) {
@@ -98,7 +98,7 @@ template <bool any, class View>
   for_each_run(tile.scene.shape_blocks, leaf, [&](const BlockRun<ShapeBlock>& run) {
     std::uint32_t touched[leaf_lanes];
     const Rectangles<LeafF> boxes = project_boxes(tile.view.frame, run);
-    std::uint32_t some = touch_groups(tile.view.groups, boxes, lanes_of(run), groups, touched);
+    std::uint32_t some = touch_groups(tile.view, boxes, lanes_of(run), groups, touched);
     if (some == 0) return;
     const StoredRectangles rectangles(boxes);
     for (; some != 0; some &= some - 1) {

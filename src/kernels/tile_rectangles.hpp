@@ -28,9 +28,12 @@ struct StoredRectangles {
 };
 
 // The rays of group g in the rectangle. Groups' rectangles lie around their rays as these points, so what
-// holds for a group holds for each ray.
-FASTRT_INLINE std::uint32_t rays_in_rectangle(const TileView& /*view*/, const TilePoints& points,
+// holds for a group holds for each ray. (Pencils' rays stray from their points; groups' rectangles are larger
+// by that.)
+template <class View>
+FASTRT_INLINE std::uint32_t rays_in_rectangle(const View& /*view*/, const TilePoints& points,
                                               const LoneRectangle& r, int g) {
+  if (View::strays) return (1U << group_size) - 1U;
   std::uint32_t bits = 0;
   for (int k = 0; k < group_size; k += widest) {
     const PacketF x = PacketF::load_aligned(points.x + g * group_size + k),
@@ -39,13 +42,6 @@ FASTRT_INLINE std::uint32_t rays_in_rectangle(const TileView& /*view*/, const Ti
             << k;
   }
   return bits;
-}
-
-// (Pencils' rays stray from their points; groups' rectangles are larger by that.)
-template <class View>
-FASTRT_INLINE std::uint32_t rays_in_rectangle(const View& /*view*/, const TilePoints& /*points*/,
-                                              const LoneRectangle& /*r*/, int /*g*/) {
-  return (1U << group_size) - 1U;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

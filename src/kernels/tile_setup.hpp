@@ -96,6 +96,13 @@ FASTRT_INLINE void bound_frame(const GeometryView& scene, float least_offset, co
   f.near = least_offset - f.padding;
 }
 
+// Where groups begin, given the least depths of their origins.
+template <class Frame>
+FASTRT_INLINE void set_begins(const Frame& f, const float* least, TileGroups& groups) {
+  for (int g = 0; g < batch_groups; g += widest)
+    (PacketF::load_aligned(least + g) - PacketF(f.padding)).store_aligned(groups.begin + g);
+}
+
 // The rays as points of the plane. Those of rays that take no part mean nothing.
 struct alignas(64) TilePoints {
   float x[batch_size], y[batch_size];
@@ -193,6 +200,7 @@ FASTRT_INLINE Projection project_batch(const GeometryView& scene, const RayBatch
     (f.perspective ? zero : most).store_aligned(groups.depth_offset + g);
   }
   bound_frame(scene, f.perspective ? 0.0F : least_of(depth), bounds, most_of(groups.depth_offset), f);
+  if (!f.perspective) set_begins(f, depth, groups);
   return Projection::done;
 }
 

@@ -84,10 +84,10 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
 
 // Traces the rays in `live` as one. If they are scattered, nothing is done but to move some of them to
 // `others`.
-template <bool any>
+template <bool any, class View>
 static Projection trace_together(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
                                  LiveRays& live, LiveRays& others) noexcept {
-  TileTraversal<any> tile(scene, rays, hits, live);
+  TileTraversal<any, View> tile(scene, rays, hits, live);
   tile.view.frame = make_tile_frame(rays, live);
   const Projection projection =
       project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups);
@@ -104,8 +104,8 @@ static Projection trace_together(const GeometryView& scene, const RayBatch& rays
 
 // Traces the batch as one, or in few parts; false if its rays don't allow that. Then some of them may have
 // been traced all the same. hits: cleared by the caller.
-template <bool any>
-static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+template <bool any, class View>
+static bool trace_tile_in(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   LiveRays parts[max_tile_splits + 1];
   parts[0] = find_live_rays(rays);
   if (parts[0].first < 0) return true;
@@ -113,7 +113,7 @@ static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch
   int count = 1, splits = 0;
   while (count != 0) {
     LiveRays others;
-    const Projection projection = trace_together<any>(scene, rays, hits, parts[count - 1], others);
+    const Projection projection = trace_together<any, View>(scene, rays, hits, parts[count - 1], others);
     if (projection == Projection::too_wide) return false;
     if (projection == Projection::done)
       --count;
@@ -123,6 +123,12 @@ static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch
       parts[count++] = others;
   }
   return true;
+}
+
+template <bool any>
+static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  return rays.shape == BatchShape::parallel ? trace_tile_in<any, ParallelView>(scene, rays, hits)
+                                            : trace_tile_in<any, TileView>(scene, rays, hits);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -44,12 +44,13 @@ FASTRT_INLINE V3<PacketF> load_vertices(const TriangleRun& run, int v) {
 }
 
 // touch_groups() for a run's triangles, each of which may only touch groups that reached its leaf.
-FASTRT_INLINE std::uint32_t touch_triangles(const TileGroups& groups, const TriangleRun& run,
+template <class View>
+FASTRT_INLINE std::uint32_t touch_triangles(const View& view, const TriangleRun& run,
                                             const Rectangles<PacketF>& bounds, std::uint32_t* touched) {
   std::uint32_t of_any = 0;
   for (int k = 0; k < run.count; ++k) of_any |= run.groups[k];
   const std::uint32_t lanes = (1U << run.count * block_size) - 1U;
-  std::uint32_t some = touch_groups(groups, bounds, lanes, of_any, touched);
+  std::uint32_t some = touch_groups(view, bounds, lanes, of_any, touched);
   for (int k = 0; k < run.count; ++k) {
     if (run.groups[k] == of_any) continue;
     for (int i = k * block_size; i < (k + 1) * block_size; ++i) {
@@ -102,9 +103,9 @@ FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const Tri
 }
 
 // The triangles of a run in `some` against the groups that they touch, all rays from one origin.
-template <bool any>
-FASTRT_INLINE void meet_from_origin(TileTraversal<any>& tile, const TriangleRun& run, const RunSetup& stored,
-                                    const EdgeLines& lines, std::uint32_t some,
+template <bool any, class View>
+FASTRT_INLINE void meet_from_origin(TileTraversal<any, View>& tile, const TriangleRun& run,
+                                    const RunSetup& stored, const EdgeLines& lines, std::uint32_t some,
                                     const std::uint32_t* touched) {
   for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
     const TriangleSetup<PacketF> setup{spread(stored, 0, i), spread(stored, 3, i), spread(stored, 6, i),
@@ -134,22 +135,22 @@ FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const Triang
 }
 
 // The triangles of a run in `some` against the groups that they touch, parallel rays.
-template <bool any>
-FASTRT_INLINE void meet_parallel(TileTraversal<any>& tile, const TriangleRun& run, const EdgeLines& lines,
-                                 std::uint32_t some, const std::uint32_t* touched) {
+template <bool any, class View>
+FASTRT_INLINE void meet_parallel(TileTraversal<any, View>& tile, const TriangleRun& run,
+                                 const EdgeLines& lines, std::uint32_t some, const std::uint32_t* touched) {
   for_each_pair(tile, run, lines, some, touched,
                 [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
 }
 
-template <bool any>
-FASTRT_INLINE void meet_run(TileTraversal<any>& tile, const TriangleRun& run) {
+template <bool any, class View>
+FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const TriangleRun& run) {
   const TileFrame& f = tile.view.frame;
   const V3<PacketF> origin = broadcast3<PacketF>(f.origin);
   const V3<PacketF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
                     c = load_vertices(run, 2) - origin;
   const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
   std::uint32_t touched[widest];
-  const std::uint32_t some = touch_triangles(tile.view.groups, run, projected.bounds, touched);
+  const std::uint32_t some = touch_triangles(tile.view, run, projected.bounds, touched);
   if (some == 0) return;
   EdgeLines lines;
   const TriangleReach<PacketF> reach = reach_of(a, b, c, largest(origin));
