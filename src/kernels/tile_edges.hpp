@@ -3,7 +3,7 @@
 // plane, held against the corners of groups and then against the rays themselves, as points.
 #pragma once
 
-#include "src/kernels/tile_culling.hpp"
+#include "src/kernels/tile_projection.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
