@@ -132,6 +132,9 @@ void check_scene(const SceneDesc& desc) {
     if (count > left) throw LimitError("the scene has more than " + std::to_string(most) + " primitives");
     left -= count;
   }
+  for (const std::size_t count : {desc.positions.size(), desc.normals.size()})
+    if (count > most)
+      throw LimitError("the scene has more than " + std::to_string(most) + " vertices or normals");
   check_finite(desc.positions, "vertex");
   check_finite(desc.normals, "normal");
   if (desc.uvs.y.size() != desc.uvs.size())

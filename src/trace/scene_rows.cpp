@@ -88,6 +88,7 @@ LightRow row_of(const Light& light) {
 } // namespace
 
 std::vector<MaterialRow> material_rows(const Scene& scene, const TextureRows& textures) {
+  check_row_count<MaterialRow>(scene.materials().size(), "materials");
   std::vector<MaterialRow> rows;
   rows.reserve(scene.materials().size());
   for (const Material& material : scene.materials()) rows.push_back(row_of(material));

@@ -83,7 +83,8 @@ InstanceRow instance_row(const Scene& scene, std::size_t i, const std::vector<Pr
 }
 
 template <class Shape, class Row>
-void fill(const std::vector<Shape>& shapes, Column<Row>& rows) {
+void fill(const std::vector<Shape>& shapes, const char* what, Column<Row>& rows) {
+  check_row_count<Row>(shapes.size(), what);
   rows.resize(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) rows[i] = row_of(shapes[i]);
 }
@@ -111,11 +112,11 @@ ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& proto
   rows.instances.resize(scene.instance_count());
   for (std::size_t i = 0; i < rows.instances.size(); ++i)
     rows.instances[i] = instance_row(scene, i, prototypes);
-  fill(scene.shapes().cones, rows.cones);
-  fill(scene.shapes().disks, rows.disks);
-  fill(scene.shapes().polygons, rows.polygons);
-  fill(scene.shapes().edges, rows.edges);
-  fill(scene.shapes().planes, rows.planes);
+  fill(scene.shapes().cones, "cones", rows.cones);
+  fill(scene.shapes().disks, "disks", rows.disks);
+  fill(scene.shapes().polygons, "polygons", rows.polygons);
+  fill(scene.shapes().edges, "edges of polygons", rows.edges);
+  fill(scene.shapes().planes, "planes", rows.planes);
   add_bands(rows);
   const SceneDesc& desc = scene.desc();
   const auto append = [&](const auto& columns) {

@@ -9,9 +9,12 @@
 #include "src/trace/scene_view.hpp"
 
 #include <fastrt/column.hpp>
+#include <fastrt/error.hpp>
 #include <fastrt/tracer.hpp>
 
+#include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace fastrt {
@@ -21,6 +24,16 @@ inline void copy(const Vec3& from, float (&to)[3]) {
   to[0] = from.x;
   to[1] = from.y;
   to[2] = from.z;
+}
+
+// Kernels reach the numbers of rows by signed places of 32 bits. Throws LimitError for more rows than that
+// allows.
+template <class Row>
+void check_row_count(std::size_t count, const char* what) {
+  constexpr std::size_t words = sizeof(Row) / sizeof(float);
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / words;
+  if (count > most)
+    throw LimitError(std::string("the scene has more than ") + std::to_string(most) + ' ' + what);
 }
 
 // The scene's textures as rows, which point into one another and into the scene.

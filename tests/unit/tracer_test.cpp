@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/trace/tracer_parts.hpp"
 #include "tests/equivalence/isas.hpp"
 #include "tests/unit/reference_shapes.hpp"
 
@@ -208,6 +209,12 @@ INSTANTIATE_TEST_SUITE_P(Isas, TracerOf, testing::ValuesIn(available_isas()), Is
 TEST(TracerSettings, TakeTheWidestIsaByThemselves) {
   EXPECT_EQ(TracerSettings().isa, available_isas().front());
   EXPECT_EQ(Tracer(SceneBuilder().build()).isa(), available_isas().front());
+}
+
+TEST(TracerRows, AreNoMoreThanKernelsReach) {
+  // Nineteen words each: the last place of the last row is below 2^31.
+  EXPECT_NO_THROW(check_row_count<ConeRow>(113'025'455, "cones"));
+  EXPECT_THROW(check_row_count<ConeRow>(113'025'456, "cones"), LimitError);
 }
 
 } // namespace
