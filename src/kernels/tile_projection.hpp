@@ -17,15 +17,31 @@ struct ProjectedTriangles {
   ProjectedCorners corners;
 };
 
+// What the coordinates of corners add to their depths, axis by axis.
+struct DepthParts {
+  V3<PacketF> a, b, c;
+};
+
+FASTRT_INLINE PacketF depth_of(const V3<PacketF>& parts) { return (parts.x + parts.y) + parts.z; }
+
+// The depths between which rays may hit triangles: those of their boxes. (A ray in a triangle's plane may hit
+// it anywhere in its box, before its nearest corner as well.)
+FASTRT_INLINE Extent<PacketF> depths_of(const DepthParts& p, const PacketF& padding) {
+  const auto least = [&](const PacketF& a, const PacketF& b, const PacketF& c) { return min(a, min(b, c)); };
+  const auto most = [&](const PacketF& a, const PacketF& b, const PacketF& c) { return max(a, max(b, c)); };
+  const V3<PacketF> low{least(p.a.x, p.b.x, p.c.x), least(p.a.y, p.b.y, p.c.y), least(p.a.z, p.b.z, p.c.z)};
+  const V3<PacketF> high{most(p.a.x, p.b.x, p.c.x), most(p.a.y, p.b.y, p.c.y), most(p.a.z, p.b.z, p.c.z)};
+  return {depth_of(low) - padding, depth_of(high) + padding};
+}
+
 // The rectangles around corners.
-FASTRT_INLINE Rectangles<PacketF> bound_corners(const ProjectedCorners& p, const PacketF& near,
-                                                const PacketF& end) {
+FASTRT_INLINE Rectangles<PacketF> bound_corners(const ProjectedCorners& p, const Extent<PacketF>& depths) {
   return {min(p.ax, min(p.bx, p.cx)),
           max(p.ax, max(p.bx, p.cx)),
           min(p.ay, min(p.by, p.cy)),
           max(p.ay, max(p.by, p.cy)),
-          near,
-          end};
+          depths.low,
+          depths.high};
 }
 
 FASTRT_INLINE Rectangles<PacketF> widened(const Rectangles<PacketF>& r, const PacketF& mx,
@@ -45,21 +61,22 @@ FASTRT_INLINE PacketF beyond_edges(const ProjectedCorners& p, const PacketF& sid
   return cull_mul_add(side, share, PacketF(1e-30F)) * cull_inverse(area);
 }
 
-// The rectangles in which parallel rays may hit triangles.
-FASTRT_INLINE Rectangles<PacketF> bound_parallel(const ProjectedCorners& p, const PacketF& near,
-                                                 const PacketF& far, const PacketF& padding) {
-  const Rectangles<PacketF> r = bound_corners(p, near, far + padding);
+// The rectangles in which parallel rays may hit triangles. deep: the difference of their corners' depths.
+FASTRT_INLINE Rectangles<PacketF> bound_parallel(const ProjectedCorners& p, const Extent<PacketF>& depths,
+                                                 const PacketF& deep, const PacketF& padding) {
+  const Rectangles<PacketF> r = bound_corners(p, depths);
   const PacketF width = r.x1 - r.x0, height = r.y1 - r.y0;
-  const PacketF share = ((width + height) + (far - near)) * (PacketF(edge_paddings) * padding);
+  const PacketF share = ((width + height) + deep) * (PacketF(edge_paddings) * padding);
   const PacketF margin = padding + beyond_edges(p, max(width, height), share);
   return widened(r, margin, margin);
 }
 
-// The same for rays of one origin; the farther out the larger. scale: one over the least depth.
-FASTRT_INLINE Rectangles<PacketF> bound_perspective(const ProjectedCorners& p, const PacketF& near,
+// The same for rays of one origin; the farther out the larger. far: the corners' largest depth; scale: one
+// over the least.
+FASTRT_INLINE Rectangles<PacketF> bound_perspective(const ProjectedCorners& p, const Extent<PacketF>& depths,
                                                     const PacketF& far, const PacketF& scale,
                                                     const PacketF& padding) {
-  const Rectangles<PacketF> r = bound_corners(p, near, far);
+  const Rectangles<PacketF> r = bound_corners(p, depths);
   const PacketF one(1.0F), x = (abs(r.x0) + abs(r.x1)) + one, y = abs(r.y0) + abs(r.y1), out = x + y;
   const PacketF width = r.x1 - r.x0, height = r.y1 - r.y0, extent = width + height;
   const PacketF share = cull_mul_add(extent + out, cull_mul_sub(far, scale, one), extent);
@@ -93,15 +110,17 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
                                                    const V3<PacketF>& b, const V3<PacketF>& c) {
   const V3<PacketF> u = broadcast3<PacketF>(view.frame.u), v = broadcast3<PacketF>(view.frame.v),
                     w = broadcast3<PacketF>(view.frame.w);
-  const PacketF aw = cull_dot(a, w), bw = cull_dot(b, w), cw = cull_dot(c, w);
+  const DepthParts parts{a * w, b * w, c * w};
+  const PacketF aw = depth_of(parts.a), bw = depth_of(parts.b), cw = depth_of(parts.c);
   const PacketF padding(view.frame.padding), one(1.0F);
   const PacketF near = min(aw, min(bw, cw)) - padding, far = max(aw, max(bw, cw));
   ProjectedCorners p{cull_dot(a, u), cull_dot(a, v), cull_dot(b, u),
                      cull_dot(b, v), cull_dot(c, u), cull_dot(c, v)};
-  if (!view.frame.perspective) return {bound_parallel(p, near, far, padding), p};
+  const Extent<PacketF> depths = depths_of(parts, padding);
+  if (!view.frame.perspective) return {bound_parallel(p, depths, far - near, padding), p};
   const PacketF ai = one / aw, bi = one / bw, ci = one / cw, scale = max(ai, max(bi, ci));
   p = {p.ax * ai, p.ay * ai, p.bx * bi, p.by * bi, p.cx * ci, p.cy * ci};
-  const Rectangles<PacketF> r = bound_perspective(p, near, far, scale, padding);
+  const Rectangles<PacketF> r = bound_perspective(p, depths, far, scale, padding);
   const MaskOf<PacketF> around = near <= PacketF(0.0F);
   // Lane by lane: a copy of the whole would be read from memory before its parts are there.
   PacketF x0 = r.x0, x1 = r.x1, y0 = r.y0, y1 = r.y1;
@@ -113,7 +132,7 @@ FASTRT_INLINE ProjectedTriangles project_triangles(const TileView& view, const V
     y0 = select(around, nowhere, y0);
     y1 = select(around, everywhere, y1);
   }
-  return {{x0, x1, y0, y1, near, far}, p};
+  return {{x0, x1, y0, y1, depths.low, depths.high}, p};
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -3,6 +3,8 @@
 // primitives: equal bits. A shape decides how a batch is traced, never what it hits.
 #include "tests/equivalence/batch_traversal.hpp"
 
+#include <cmath>
+
 namespace fastrt::test {
 namespace {
 
@@ -94,6 +96,34 @@ TEST_P(BatchTraversal, AcrossEdgesFindsWhatBruteForceFinds) {
     RayRun run = across_edges(first, second, third, random);
     vary(run, scene(), one_origin, random);
     expect_same(run, any_count(random), {one_origin ? BatchShape::common_origin : BatchShape::parallel});
+  }
+  expect_hits(0.02);
+}
+
+// Close to 1, or next to it.
+float almost_one(Random& random) {
+  const float step = any_size(random, -24, -3);
+  return random.below(2) == 0 ? 1.0F + step : 1.0F - step;
+}
+
+// Rays of one origin end where they meet something, parallel ones begin there, or almost.
+TEST_P(BatchTraversal, UpToSurfacesFindsWhatBruteForceFinds) {
+  Random random(57);
+  const reference::BruteForce finder(scene());
+  for (int i = 0; i < rounds(100); ++i) {
+    const bool one_origin = i % 2 == 0;
+    RayRun run = one_origin ? fan_to_patch(scene(), origin_at(scene(), random), random)
+                            : beam_to_patch(scene(), random.direction(), random);
+    for (Ray& ray : run) {
+      const Hit hit = finder.closest(ray);
+      if (!hit.found()) continue;
+      const float t = random.below(4) == 0 ? hit.t : hit.t * almost_one(random);
+      if (one_origin)
+        ray.t_max = random.below(4) == 0 ? std::nextafter(t, infinity) : t;
+      else
+        ray.origin += t * ray.direction;
+    }
+    expect_same(run, batch_size, {one_origin ? BatchShape::common_origin : BatchShape::parallel});
   }
   expect_hits(0.02);
 }
