@@ -8,10 +8,17 @@
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // The edges of a run's triangles as lines a*x + b*y + c >= 0 of the plane, positive inside, with a margin in
-// c.
+// c. Rays for which no line gives less than `certain` are inside by the triangle's own test as well.
 struct EdgeLines {
-  alignas(64) float a[3][widest], b[3][widest], c[3][widest];
+  alignas(64) float a[3][widest], b[3][widest], c[3][widest], certain[widest];
 };
+
+// Where rounding is no longer a share of what is computed, nothing is certain.
+inline constexpr float least_certain = 0x1p-100F;
+
+FASTRT_INLINE void store_certain(EdgeLines& lines, const PacketF& margin) {
+  cull_mul_add(margin, PacketF(4.0F), PacketF(least_certain)).store_aligned(lines.certain);
+}
 
 FASTRT_INLINE void store_line(EdgeLines& lines, int e, const PacketF& a, const PacketF& b, const PacketF& c) {
   a.store_aligned(lines.a[e]);
@@ -36,6 +43,7 @@ FASTRT_INLINE void lines_from_setup(const TileFrame& f, const TriangleSetup<Pack
   const V3<PacketF>* const edges[3] = {&s.edge_a, &s.edge_b, &s.edge_c};
   const PacketF margin =
       (largest_side(reach) * max(largest(reach.low), largest(reach.high))) * PacketF(line_margin);
+  store_certain(lines, margin);
   for (int e = 0; e < 3; ++e)
     store_line(lines, e, cull_dot(*edges[e], u), cull_dot(*edges[e], v), cull_dot(*edges[e], w) + margin);
 }
@@ -47,6 +55,7 @@ FASTRT_INLINE void lines_from_corners(const TileFrame& f, const ProjectedCorners
   const PacketF area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
   const PacketF sign = sign_bit(area);
   const PacketF margin = largest_side(reach) * PacketF(4.0F * f.padding);
+  store_certain(lines, margin);
   for (int e = 0; e < 3; ++e) {
     const PacketF a = flip(y[e] - y[e + 1], sign), b = flip(x[e + 1] - x[e], sign);
     store_line(lines, e, a, b, margin - (a * x[e] + b * y[e]));

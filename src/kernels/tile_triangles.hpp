@@ -3,7 +3,7 @@
 // one register of rays at a time. Rays of a common origin share a triangle's set-up without changing a bit.
 #pragma once
 
-#include "src/kernels/tile_hits.hpp"
+#include "src/kernels/tile_certain.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
@@ -102,12 +102,29 @@ FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const Tri
   }
 }
 
+// Whether what is certain of rays that ask for any hit is looked for before a triangle's own test: of more
+// than one, where a register holds a group. (Elsewhere it takes longer than it saves.)
+template <bool any>
+FASTRT_INLINE bool may_be_certain(std::uint32_t rays) {
+  return any && widest == group_size && (rays & (rays - 1)) != 0;
+}
+
 // The triangles of a run in `some` against the groups that they touch, all rays from one origin.
 template <bool any, class View>
 FASTRT_INLINE void meet_from_origin(TileTraversal<any, View>& tile, const TriangleRun& run,
-                                    const RunSetup& stored, const EdgeLines& lines, std::uint32_t some,
+                                    const TriangleSetup<PacketF>& setups, const RunSetup& stored,
+                                    const EdgeLines& lines, std::uint32_t some,
                                     const std::uint32_t* touched) {
+  [[maybe_unused]] PlaneLines planes;
+  [[maybe_unused]] bool has_planes = false;
   for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
+    if constexpr (any)
+      if (may_be_certain<any>(rays)) {
+        if (!has_planes) planes_from_setup(tile.view.frame, setups, planes);
+        has_planes = true;
+        rays = keep_certain(tile, run, lines, planes, i, g, rays);
+        if (rays == 0) return;
+      }
     const TriangleSetup<PacketF> setup{spread(stored, 0, i), spread(stored, 3, i), spread(stored, 6, i),
                                        spread(stored, 9, i), PacketF(stored.columns[12][i])};
     const auto reach = [&] { return TriangleReach<PacketF>{spread(stored, 13, i), spread(stored, 16, i)}; };
@@ -134,12 +151,24 @@ FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const Triang
   });
 }
 
-// The triangles of a run in `some` against the groups that they touch, parallel rays.
+// The triangles of a run in `some` against the groups that they touch, parallel rays. a, b, c: vertices.
 template <bool any, class View>
-FASTRT_INLINE void meet_parallel(TileTraversal<any, View>& tile, const TriangleRun& run,
-                                 const EdgeLines& lines, std::uint32_t some, const std::uint32_t* touched) {
-  for_each_pair(tile, run, lines, some, touched,
-                [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
+FASTRT_INLINE void meet_parallel(TileTraversal<any, View>& tile, const TriangleRun& run, const V3<PacketF>& a,
+                                 const V3<PacketF>& b, const V3<PacketF>& c, const EdgeLines& lines,
+                                 std::uint32_t some, const std::uint32_t* touched) {
+  [[maybe_unused]] PlaneLines planes;
+  [[maybe_unused]] bool has_planes = false;
+  for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
+    if constexpr (any)
+      if (may_be_certain<any>(rays)) {
+        if (!has_planes)
+          planes_from_corners(tile.view.frame, tile.view.groups.depth_scale[0], a, b, c, planes);
+        has_planes = true;
+        rays = keep_certain(tile, run, lines, planes, i, g, rays);
+        if (rays == 0) return;
+      }
+    meet_own_origins(tile, run, i, g, rays);
+  });
 }
 
 template <bool any, class View>
@@ -154,15 +183,15 @@ FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const TriangleRun& r
   if (some == 0) return;
   EdgeLines lines;
   const TriangleReach<PacketF> reach = reach_of(a, b, c, largest(origin));
-  if (!f.perspective) {
+  if constexpr (View::begins_apart) {
     lines_from_corners(f, projected.corners, reach, lines);
-    meet_parallel(tile, run, lines, some, touched);
-    return;
+    meet_parallel(tile, run, a, b, c, lines, some, touched);
+  } else {
+    const TriangleSetup<PacketF> setup = set_up_triangle(a, b, c);
+    lines_from_setup(f, setup, reach, lines);
+    const RunSetup stored = store_setup(setup, reach);
+    meet_from_origin(tile, run, setup, stored, lines, some, touched);
   }
-  const TriangleSetup<PacketF> setup = set_up_triangle(a, b, c);
-  lines_from_setup(f, setup, reach, lines);
-  const RunSetup stored = store_setup(setup, reach);
-  meet_from_origin(tile, run, stored, lines, some, touched);
 }
 
 // Meets what waits.
