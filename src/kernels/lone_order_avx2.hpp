@@ -55,18 +55,25 @@ FASTRT_INLINE __m256i entries_of(const WideNode& node, __m128i keys) {
   return _mm256_setr_m128i(_mm_unpacklo_epi32(below, above), _mm_unpackhi_epi32(below, above));
 }
 
-// Meets the node's boxes; meet(half) gives the BoxLanes. Writes up to eight entries from `top` on and returns
-// the new top; the nearest lies on top.
+// Which boxes were met: their keys in their places, and 0 elsewhere; and their places (bits).
+struct MetBoxes {
+  __m256i keys;
+  std::uint32_t met;
+};
+
 template <class Meet>
-FASTRT_INLINE Waiting* meet_in_order(const WideNode& node, Waiting* top, MetBoxes&, const Meet& meet) {
-  const BoxLanes boxes = meet(0);
-  const std::uint32_t met = to_bits(boxes.met);
-  const __m256i distance = _mm256_and_si256(_mm256_castps_si256(boxes.near.data), _mm256_set1_epi32(~7));
-  const __m256i keys = _mm256_and_si256(_mm256_or_si256(distance, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)),
-                                        _mm256_castps_si256(boxes.met.data));
-  const __m256i lanes = _mm256_cvtepu8_epi32(_mm_loadu_si64(lanes_first.lanes + met));
-  const __m256i together = _mm256_permutevar8x32_epi32(keys, lanes);
-  const int count = __builtin_popcount(met);
+FASTRT_INLINE void find_met(const WideNode&, const Meet& meet, MetBoxes& boxes) {
+  const BoxLanes lanes = meet(0);
+  const __m256i distance = _mm256_and_si256(_mm256_castps_si256(lanes.near.data), _mm256_set1_epi32(~7));
+  const __m256i keys = _mm256_or_si256(distance, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  boxes.keys = _mm256_and_si256(keys, _mm256_castps_si256(lanes.met.data));
+  boxes.met = to_bits(lanes.met);
+}
+
+FASTRT_INLINE Waiting* push_in_order(const WideNode& node, const MetBoxes& boxes, Waiting* top) {
+  const __m256i lanes = _mm256_cvtepu8_epi32(_mm_loadu_si64(lanes_first.lanes + boxes.met));
+  const __m256i together = _mm256_permutevar8x32_epi32(boxes.keys, lanes);
+  const int count = __builtin_popcount(boxes.met);
   const auto to = reinterpret_cast<__m256i*>(top);
   if (__builtin_expect(count <= 4, 1)) {
     _mm256_storeu_si256(to, entries_of(node, sort_keys(_mm256_castsi256_si128(together))));

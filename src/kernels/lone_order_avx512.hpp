@@ -40,19 +40,26 @@ FASTRT_INLINE __m512i entries_of(const WideNode& node, const Floats<8>& near) {
   return _mm512_permutex2var_epi32(_mm512_castsi256_si512(child), in_turn, _mm512_castsi256_si512(above));
 }
 
-// Meets the node's boxes; meet(half) gives the BoxLanes. Writes up to eight entries from `top` on and returns
-// the new top; the nearest lies on top.
+// The entries of the boxes that were met, in no order, and how many they are.
+struct MetBoxes {
+  __m512i entries;
+  int count;
+};
+
 template <class Meet>
-FASTRT_INLINE Waiting* meet_in_order(const WideNode& node, Waiting* top, MetBoxes&, const Meet& meet) {
-  const BoxLanes boxes = meet(0);
-  const std::uint32_t met = to_bits(boxes.met);
-  const __m512i w = _mm512_maskz_compress_epi64(static_cast<__mmask8>(met), entries_of(node, boxes.near));
-  const int count = __builtin_popcount(met);
-  if (__builtin_expect(count <= 4, 1))
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(top), sort_lanes(_mm512_castsi512_si256(w)));
+FASTRT_INLINE void find_met(const WideNode& node, const Meet& meet, MetBoxes& boxes) {
+  const BoxLanes lanes = meet(0);
+  const std::uint32_t met = to_bits(lanes.met);
+  boxes.entries = _mm512_maskz_compress_epi64(static_cast<__mmask8>(met), entries_of(node, lanes.near));
+  boxes.count = __builtin_popcount(met);
+}
+
+FASTRT_INLINE Waiting* push_in_order(const WideNode&, const MetBoxes& boxes, Waiting* top) {
+  if (__builtin_expect(boxes.count <= 4, 1))
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(top), sort_lanes(_mm512_castsi512_si256(boxes.entries)));
   else
-    _mm512_storeu_si512(top, sort_lanes(w));
-  return top + count;
+    _mm512_storeu_si512(top, sort_lanes(boxes.entries));
+  return top + boxes.count;
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

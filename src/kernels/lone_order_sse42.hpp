@@ -6,34 +6,30 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-// Boxes that were met and are not yet on the stack: putting them there takes branches that can hardly be
-// foreseen, which cost least when what they ask is known.
+// Which boxes were met (bits), and where. Putting them onto the stack takes branches that can hardly be
+// foreseen.
 struct MetBoxes {
   std::uint32_t met;
   alignas(16) float near[wide_children];
 };
-FASTRT_INLINE void no_boxes(MetBoxes& boxes) { boxes.met = 0; }
 
-// Meets the node's boxes; meet(half) gives the BoxLanes of one half.
 template <class Meet>
-FASTRT_INLINE Waiting* meet_in_order(const WideNode&, Waiting* top, MetBoxes& boxes, const Meet& meet) {
+FASTRT_INLINE void find_met(const WideNode&, const Meet& meet, MetBoxes& boxes) {
   boxes.met = 0;
   for (int half = 0; half < wide_children; half += node_lanes) {
     const BoxLanes lanes = meet(half);
     lanes.near.store_aligned(boxes.near + half);
     boxes.met |= to_bits(lanes.met) << half;
   }
-  return top;
 }
 
-// Nearer ones above farther ones; returns the new top.
-FASTRT_INLINE Waiting* push_met(const WideNode* node, const MetBoxes& boxes, Waiting* top) {
+FASTRT_INLINE Waiting* push_in_order(const WideNode& node, const MetBoxes& boxes, Waiting* top) {
   std::uint32_t bits = boxes.met;
   if (bits == 0) return top;
   const auto next = [&] {
     const int i = __builtin_ctz(bits);
     bits &= bits - 1;
-    return make_waiting(node->child[i], boxes.near[i], node->size[i]);
+    return make_waiting(node.child[i], boxes.near[i], node.size[i]);
   };
   Waiting nearest = next();
   Waiting* const bottom = top;

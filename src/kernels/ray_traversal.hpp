@@ -8,25 +8,39 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-FASTRT_INLINE void meet_node(const GeometryView& scene, LoneSlot& slot) {
+FASTRT_INLINE void meet_node(const GeometryView& scene, const LoneSlot& slot, MetBoxes& boxes) {
   const WideNode& node = scene.nodes[child_of(slot.next)];
-  slot.top =
-      meet_in_order(node, slot.top, slot.boxes, [&](int half) { return meet_boxes(slot.ray, node, half); });
+  const auto meet = [&](int half) { return meet_boxes(slot.ray, node, half); };
+  find_met(node, meet, boxes);
 }
 
-// The first of the line of those at nodes. All meet their nodes before the first goes on from there: what
-// comes next waits for what the node gives.
+FASTRT_INLINE void push_children(const GeometryView& scene, const MetBoxes& boxes, LoneSlot& slot) {
+  slot.top = push_in_order(scene.nodes[child_of(slot.next)], boxes, slot.top);
+}
+
+// The first of the line of those at nodes. All meet their boxes before the first goes on from there: what
+// comes next waits for what the boxes give. So does their order: where that takes no branches, the next ray
+// meets its boxes between the two.
 FASTRT_INLINE void meet_nodes(const GeometryView& scene, LoneLines& lines, std::uint32_t count) {
-  LoneSlot* slots[lone_rays_at_once];
-  for (std::uint32_t i = 0; i < count; ++i) {
-    slots[i] = &lines.take(at_node);
-    meet_node(scene, *slots[i]);
+  if (count == 0) return;
+  LoneSlot* const* const slots = lines.take(at_node, count);
+#if defined(__AVX2__)
+  MetBoxes boxes, next;
+  meet_node(scene, *slots[0], boxes);
+  for (std::uint32_t i = 1; i < count; ++i) {
+    meet_node(scene, *slots[i], next);
+    push_children(scene, boxes, *slots[i - 1]);
+    boxes = next;
   }
+  push_children(scene, boxes, *slots[count - 1]);
+  for (std::uint32_t i = 0; i < count; ++i) line_up(lines, *slots[i], next_waiting(*slots[i]));
+#else
+  for (std::uint32_t i = 0; i < count; ++i) meet_node(scene, *slots[i], slots[i]->boxes);
   for (std::uint32_t i = 0; i < count; ++i) {
-    LoneSlot& slot = *slots[i];
-    slot.top = push_met(scene.nodes + child_of(slot.next), slot.boxes, slot.top);
-    line_up(scene, lines, slot, next_waiting(slot));
+    push_children(scene, slots[i]->boxes, *slots[i]);
+    line_up(lines, *slots[i], next_waiting(*slots[i]));
   }
+#endif
 }
 
 // Sieves the triangles of a leaf's first run. The other runs wait as a leaf of their own.
@@ -41,12 +55,12 @@ FASTRT_INLINE void sieve_run(const GeometryView& scene, LoneSlot& slot) {
 template <bool any, bool few>
 FASTRT_INLINE void meet_leaves(const GeometryView& scene, HitBatch& hits, LoneLines& lines,
                                std::uint32_t count, std::uint32_t& runs) {
-  LoneSlot* slots[lone_rays_at_once];
+  LoneSlot* const* const slots = lines.take(at_leaf, count);
   LoneSlot* tests[lone_rays_at_once];
   std::uint32_t test_count = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    LoneSlot& slot = lines.take(at_leaf);
-    slots[i] = tests[test_count] = &slot;
+    LoneSlot& slot = *slots[i];
+    tests[test_count] = &slot;
     if (leaf_group(child_of(slot.next)) != triangle_group) {
       meet_other_leaf<any>(scene, hits, slot.ray, child_of(slot.next), runs);
       continue;
@@ -60,7 +74,7 @@ FASTRT_INLINE void meet_leaves(const GeometryView& scene, HitBatch& hits, LoneLi
   for (std::uint32_t i = 0; i < count; ++i) {
     LoneSlot& slot = *slots[i];
     if (any && slot.ray.primitive >= 0) clear_stack(slot);
-    line_up(scene, lines, slot, few ? next_waiting(slot) : next_of_old(slot));
+    line_up(lines, slot, few ? next_waiting(slot) : next_of_old(slot));
   }
 }
 
@@ -96,7 +110,7 @@ FASTRT_INLINE void start_ray(const GeometryView& scene, LoneQueue& queue, LoneLi
   slot.ray = lone_ray(queue.rays, queue.hits, i);
   copy_ray(queue.columns, i, slot.ray.own);
   clear_stack(slot);
-  line_up(scene, lines, slot,
+  line_up(lines, slot,
           __builtin_expect(queue.later != nullptr, 0) ? next_of_later<any>(*queue.later, slot)
                                                       : make_waiting(queue.start, 0.0F, size_bits));
 }
@@ -110,7 +124,7 @@ FASTRT_INLINE void end_ray(HitBatch& hits, const LoneSlot& slot) {
 template <bool any>
 static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept {
   LoneSlot memory[lone_rays_at_once];
-  LoneLines lines;
+  LoneLines lines(scene);
   std::uint32_t nodes = 0, runs = 0;
   for (int s = 0; s < lone_rays_at_once && queue.next != queue.end; ++s)
     start_ray<any>(scene, queue, lines, memory[s]);
@@ -122,7 +136,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
       meet_leaves<any, false>(scene, queue.hits, lines, lone_leaves_at_once, runs);
     } else if (queue.next != queue.end) {
       for (std::uint32_t left = lines.count(at_end); left != 0 && queue.next != queue.end; --left) {
-        LoneSlot& slot = lines.take(at_end);
+        LoneSlot& slot = **lines.take(at_end, 1);
         end_ray(queue.hits, slot);
         start_ray<any>(scene, queue, lines, slot);
       }
@@ -134,7 +148,7 @@ static void trace_lone_rays(const GeometryView& scene, LoneQueue queue) noexcept
       meet_leaves<any, true>(scene, queue.hits, lines, leaves_left, runs);
     }
   }
-  while (lines.count(at_end) != 0) end_ray(queue.hits, lines.take(at_end));
+  while (lines.count(at_end) != 0) end_ray(queue.hits, **lines.take(at_end, 1));
   queue.hits.lone += static_cast<std::uint64_t>(nodes) << 32U | runs;
 }
 

@@ -51,11 +51,4 @@ struct BoxLanes {
   Mask<node_lanes> met;
 };
 
-#if defined(__AVX2__)
-// Boxes that were met and are not yet on the stack: none where that takes no branches (see lone_order.hpp).
-struct MetBoxes {};
-FASTRT_INLINE void no_boxes(MetBoxes&) {}
-FASTRT_INLINE Waiting* push_met(const WideNode*, const MetBoxes&, Waiting* top) { return top; }
-#endif
-
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
