@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Turns what the benchmarks measured into docs/performance.md and its pictures.
+"""Turns what the benchmarks measured into a page and its pictures.
 
-report.py MEASURED DOCS: MEASURED holds compare.json, runs.json, kernels.json and roofline.json, as far as they were
-measured, each with a text PART.context of lines "name: value" that says how. The same input gives the same output."""
+report.py MEASURED DOCS [PAGE]: MEASURED holds compare.json, runs.json, kernels.json and roofline.json, as far as they
+were measured, each with a text PART.context of lines "name: value" that says how. Writes DOCS/PAGE.md [performance] and
+DOCS/images/PAGE-*.svg. The same input gives the same output."""
 import json
 import pathlib
 import sys
@@ -52,19 +53,20 @@ def document(data, contexts):
 
 
 def main(arguments):
-    if len(arguments) != 2:
-        print("usage: report.py MEASURED DOCS", file=sys.stderr)
+    if len(arguments) not in (2, 3):
+        print("usage: report.py MEASURED DOCS [PAGE]", file=sys.stderr)
         return 2
-    measured, docs = map(pathlib.Path, arguments)
+    measured, docs = map(pathlib.Path, arguments[:2])
+    name = arguments[2] if len(arguments) == 3 else "performance"
     data, contexts = read(measured)
     if not data:
         print(f"report.py: nothing measured in {measured}", file=sys.stderr)
         return 2
     page, pictures = document(data, contexts)
     (docs / "images").mkdir(parents=True, exist_ok=True)
-    (docs / "performance.md").write_text(page)
-    for name, svg in pictures.items():
-        (docs / "images" / name).write_text(svg)
+    (docs / f"{name}.md").write_text(page.replace(sections.IMAGE, f"images/{name}-"))
+    for part, svg in pictures.items():
+        (docs / "images" / f"{name}-{part}.svg").write_text(svg)
     return 0
 
 

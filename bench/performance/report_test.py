@@ -44,13 +44,13 @@ def measured(folder, **parts):
 
 
 class Report(unittest.TestCase):
-    def run_report(self, **parts):
+    def run_report(self, page="performance", named=(), **parts):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             measured(folder, **parts)
-            code = report.main([str(folder), str(folder / "docs")])
+            code = report.main([str(folder), str(folder / "docs"), *named])
             files = {f.name: f.read_text() for f in folder.glob("docs/**/*.*")}
-            return code, files.pop("performance.md", ""), files
+            return code, files.pop(f"{page}.md", ""), files
 
     def test_whole_page(self):
         code, page, pictures = self.run_report(compare=COMPARE, runs=RUNS, roofline=ROOFLINE, kernels=KERNELS)
@@ -72,6 +72,11 @@ class Report(unittest.TestCase):
         _, page, pictures = self.run_report(runs=RUNS)
         self.assertNotIn("Roofline", page)
         self.assertEqual(list(pictures), ["performance-runs.svg"])
+
+    def test_another_name(self):
+        _, page, pictures = self.run_report(page="other", named=["other"], runs=RUNS)
+        self.assertEqual(list(pictures), ["other-runs.svg"])
+        self.assertIn("(images/other-runs.svg)", page)
 
     def test_nothing_measured(self):
         self.assertEqual(self.run_report()[0], 2)

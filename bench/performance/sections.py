@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The sections of docs/performance.md. Each takes the numbers of one part of the benchmarks and returns Markdown lines,
-and puts its charts into `pictures` under their file names."""
+"""The sections of the page. Each takes the numbers of one part of the benchmarks and returns Markdown lines, and puts its
+charts into `pictures` under their names."""
 from charts import chart, short
 
 WIDEST = ("avx512", "avx2", "sse4.2")
@@ -13,9 +13,13 @@ def table(heads, rows):
     return lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows] + [""]
 
 
+# Where pictures lie, before the page has its name.
+IMAGE = "images/PAGE-"
+
+
 def picture(pictures, name, words, svg):
-    pictures[f"performance-{name}.svg"] = svg
-    return [f"![{words}](images/performance-{name}.svg)", ""]
+    pictures[name] = svg
+    return [f"![{words}]({IMAGE}{name}.svg)", ""]
 
 
 def spread(s):
