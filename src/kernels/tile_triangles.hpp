@@ -109,30 +109,17 @@ FASTRT_INLINE bool may_be_certain(std::uint32_t rays) {
   return any && widest == group_size && (rays & (rays - 1)) != 0;
 }
 
-// The triangles of a run in `some` against the groups that they touch, all rays from one origin.
+// Triangle i of a run against the rays of group g in `rays`, all from one origin.
 template <bool any, class View>
 FASTRT_INLINE void meet_from_origin(TileTraversal<any, View>& tile, const TriangleRun& run,
-                                    const TriangleSetup<PacketF>& setups, const RunSetup& stored,
-                                    const EdgeLines& lines, std::uint32_t some,
-                                    const std::uint32_t* touched) {
-  [[maybe_unused]] PlaneLines planes;
-  [[maybe_unused]] bool has_planes = false;
-  for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
-    if constexpr (any)
-      if (may_be_certain<any>(rays)) {
-        if (!has_planes) planes_from_setup(tile.view.frame, setups, planes);
-        has_planes = true;
-        rays = keep_certain(tile, run, lines, planes, i, g, rays);
-        if (rays == 0) return;
-      }
-    const TriangleSetup<PacketF> setup{spread(stored, 0, i), spread(stored, 3, i), spread(stored, 6, i),
-                                       spread(stored, 9, i), PacketF(stored.columns[12][i])};
-    const auto reach = [&] { return TriangleReach<PacketF>{spread(stored, 13, i), spread(stored, 16, i)}; };
-    meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
-      const TriangleLanes<PacketF> lanes = intersect_triangle(
-          setup, load_dir(tile.rays, ray), rays >> (ray % group_size) & register_bits, reach);
-      return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
-    });
+                                    const RunSetup& stored, int i, int g, std::uint32_t rays) {
+  const TriangleSetup<PacketF> setup{spread(stored, 0, i), spread(stored, 3, i), spread(stored, 6, i),
+                                     spread(stored, 9, i), PacketF(stored.columns[12][i])};
+  const auto reach = [&] { return TriangleReach<PacketF>{spread(stored, 13, i), spread(stored, 16, i)}; };
+  meet_group(tile, g, rays, run.primitive(i), [&](int ray) -> MetLanes {
+    const TriangleLanes<PacketF> lanes = intersect_triangle(
+        setup, load_dir(tile.rays, ray), rays >> (ray % group_size) & register_bits, reach);
+    return {lanes.inside & (lanes.t > PacketF::load_aligned(tile.rays.t_min + ray)), lanes.t};
   });
 }
 
@@ -151,23 +138,23 @@ FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const Triang
   });
 }
 
-// The triangles of a run in `some` against the groups that they touch, parallel rays. a, b, c: vertices.
-template <bool any, class View>
-FASTRT_INLINE void meet_parallel(TileTraversal<any, View>& tile, const TriangleRun& run, const V3<PacketF>& a,
-                                 const V3<PacketF>& b, const V3<PacketF>& c, const EdgeLines& lines,
-                                 std::uint32_t some, const std::uint32_t* touched) {
+// The triangles of a run in `some` against the groups that they touch. make_planes(planes): of the triangles;
+// meet(triangle, group, rays): by the triangle's own test.
+template <bool any, class View, class MakePlanes, class Meet>
+FASTRT_INLINE void meet_pairs(TileTraversal<any, View>& tile, const TriangleRun& run, const EdgeLines& lines,
+                              std::uint32_t some, const std::uint32_t* touched, const MakePlanes& make_planes,
+                              const Meet& meet) {
   [[maybe_unused]] PlaneLines planes;
   [[maybe_unused]] bool has_planes = false;
   for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
     if constexpr (any)
       if (may_be_certain<any>(rays)) {
-        if (!has_planes)
-          planes_from_corners(tile.view.frame, tile.view.groups.depth_scale[0], a, b, c, planes);
+        if (!has_planes) make_planes(planes);
         has_planes = true;
         rays = keep_certain(tile, run, lines, planes, i, g, rays);
         if (rays == 0) return;
       }
-    meet_own_origins(tile, run, i, g, rays);
+    meet(i, g, rays);
   });
 }
 
@@ -185,12 +172,17 @@ FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const TriangleRun& r
   const TriangleReach<PacketF> reach = reach_of(a, b, c, largest(origin));
   if constexpr (View::begins_apart) {
     lines_from_corners(f, projected.corners, reach, lines);
-    meet_parallel(tile, run, a, b, c, lines, some, touched);
+    meet_pairs(
+        tile, run, lines, some, touched,
+        [&](PlaneLines& p) { planes_from_corners(f, tile.view.groups.depth_scale[0], a, b, c, p); },
+        [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
   } else {
     const TriangleSetup<PacketF> setup = set_up_triangle(a, b, c);
     lines_from_setup(f, setup, reach, lines);
     const RunSetup stored = store_setup(setup, reach);
-    meet_from_origin(tile, run, setup, stored, lines, some, touched);
+    meet_pairs(
+        tile, run, lines, some, touched, [&](PlaneLines& p) { planes_from_setup(f, setup, p); },
+        [&](int i, int g, std::uint32_t rays) { meet_from_origin(tile, run, stored, i, g, rays); });
   }
 }
 
