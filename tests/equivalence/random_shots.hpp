@@ -5,6 +5,7 @@
 #include "tests/equivalence/frames.hpp"
 #include "tests/unit/shape_scenes.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace fastrt::test {
@@ -90,6 +91,17 @@ inline Scene any_scene(Random& random) {
   return builder.build();
 }
 
+// The same, but here and there a corner has no normal, or no place in the texture: a triangle is smooth where
+// all three corners have one, likewise textured.
+inline Scene with_gaps(const Scene& scene, Random& random) {
+  SceneDesc desc = scene.desc();
+  TriangleColumns& rows = desc.triangles;
+  for (auto* corners : {&rows.n0, &rows.n1, &rows.n2, &rows.t0, &rows.t1, &rows.t2})
+    for (std::uint32_t& corner : *corners)
+      if (random.below(6) == 0) corner = no_index;
+  return Scene(std::move(desc));
+}
+
 // Any of what cameras and sampling offer; drawn last, so that the scenes stay as they are.
 inline void any_view(Random& random, Camera& camera, RenderSettings& settings) {
   if (random.below(4) == 0) {
@@ -133,6 +145,7 @@ inline Shot any_shot(std::uint32_t seed) {
   if (seed % 2 == 0)
     for (std::size_t i = 0; i < aov_count; ++i) shot.settings.aovs.push_back(static_cast<Aov>(i));
   if (seed % 3 == 0) any_view(random, shot.camera, shot.settings);
+  if (seed % 4 == 1) shot.scene = with_gaps(shot.scene, random);
   return shot;
 }
 

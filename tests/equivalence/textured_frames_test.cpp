@@ -31,6 +31,7 @@ Shot textured_shot(std::uint32_t seed) {
   shot.settings = small_settings(33, 26, random.below(5) == 0 ? 3 : 1);
   shot.settings.max_depth = static_cast<int>(random.below(5));
   shot.settings.min_contribution = 0;
+  if (seed % 4 == 1) shot.scene = with_gaps(shot.scene, random);
   return shot;
 }
 
