@@ -52,8 +52,8 @@ public:
   [[gnu::always_inline]] inline std::uint32_t count(LonePlace place) const {
     return static_cast<std::uint32_t>(tail_[place] - head_[place]);
   }
-  // The slot goes to the end of the line for the child that it meets next. It is written to all lines, but
-  // only that one grows.
+  // The slot goes to the end of the line for the child that it meets next, which is asked of memory. It is
+  // written to all lines, but only that one grows.
   [[gnu::always_inline]] inline void add(LoneSlot& slot, std::uint64_t child) {
     const std::uint64_t not_node = child >> 31U, end = (child + 1U) >> 32U;
     const Part& part = parts_[not_node + end];
@@ -75,6 +75,7 @@ public:
 
 private:
   static constexpr int size = 3 * lone_rays_at_once;
+  static_assert(lone_nodes_at_once + lone_leaves_at_once <= lone_rays_at_once);
 
   // Where things lie that rays meet in a place, one after the other.
   struct Part {
