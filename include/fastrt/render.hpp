@@ -20,6 +20,11 @@ namespace fastrt {
 // mirror or glass; what such a surface shows of the rest is not seen. Needs a pinhole or parallel rays.
 enum class Integrator { whitted, forward };
 
+// What a frame keeps of a pixel. linear: its colour and its primitive, 16 bytes. srgb8: the 8-bit codes of
+// the colour, as png, ppm, jpg and tif hold them: 3 bytes, and never more where neither AOVs nor adaptive
+// samples are asked for (the whitted integrator's kernels then write codes tile by tile).
+enum class PixelFormat { linear, srgb8 };
+
 // Columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of a picture.
 struct Crop {
   int x0, y0, x1, y1;
@@ -47,8 +52,9 @@ struct RenderSettings {
   // through. whitted alone, at most 10^8.
   std::int64_t caustic_photons = 0;
   float caustic_radius = 0; // over which they are averaged, in the scene's unit; 0: chosen by their density
-  std::vector<Aov> aovs;    // which to record; with several samples this takes one ray more a pixel
-  int threads = 0;          // 0 takes every core
+  PixelFormat pixel_format = PixelFormat::linear;
+  std::vector<Aov> aovs; // which to record; with several samples this takes one ray more a pixel
+  int threads = 0;       // 0 takes every core
   // Both may be null. `cancelled` is read between tiles and photons; `progress` gets the share of them that
   // is done, 0..1, from one thread at a time.
   const std::atomic<bool>* cancelled = nullptr;
@@ -84,6 +90,9 @@ struct Frame {
   int width = 0, height = 0;
   Column<float> rgb;
   Column<std::int32_t> primitive;
+  // With PixelFormat::srgb8, which leaves both of these empty: three codes a pixel, what encode_image makes
+  // of rgb.
+  Column<unsigned char> srgb8;
   std::vector<std::int32_t> samples; // that each pixel got; empty unless sampling was adaptive
   std::vector<AovPlane> aovs;        // those that were asked for, each once
   RayCounts rays;
@@ -101,11 +110,11 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
 // checking.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
-// What differs between two frames of one size.
+// What differs between two frames of one size and pixel format.
 struct FrameDifference {
   std::size_t pixels = 0;     // pixels with a channel that differs in its bits
   std::size_t primitives = 0; // pixels that see another primitive
-  double largest = 0;         // the largest difference of a channel
+  double largest = 0;         // the largest difference of a channel; of codes, by 255
   std::size_t aovs = 0;       // pixels with an AOV that differs
   bool equal() const noexcept { return pixels == 0 && primitives == 0 && aovs == 0; }
 };

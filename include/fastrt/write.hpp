@@ -28,6 +28,14 @@ void write_image(const std::filesystem::path& path, std::span<const float> rgb, 
 std::vector<unsigned char> encode_image(const std::string& format, std::span<const float> rgb, int width,
                                         int height, int threads = 0);
 
+// Whether a format holds 8-bit sRGB codes (png ppm jpg jpeg tif tiff).
+bool is_8bit_format(const std::string& format);
+
+// Of such a format, from the codes themselves (Frame::srgb8): the same bytes as from the linear values that
+// they were made of. Throws UsageError for other formats.
+std::vector<unsigned char> encode_image(const std::string& format, std::span<const unsigned char> srgb8,
+                                        int width, int height, int threads = 0);
+
 // The picture and its AOVs as one EXR of 32-bit channels: R G B, then "depth", "normal.X" and so on
 // (aov_info). Ids are unsigned integers counted from 1: 0 is the background.
 // The file's attribute "fastrt:objects" has a line for each of `objects` (SceneDesc::object_names), in the

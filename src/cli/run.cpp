@@ -87,8 +87,15 @@ fs::path choose_output(const Options& options) {
   return path;
 }
 
-RenderSettings render_settings(const Options& options, int threads) {
+// What must be compared or becomes a file of linear values is kept as it is; layers are such a file.
+PixelFormat choose_pixel_format(const Options& options, const fs::path& output) {
+  const bool is_8bit = output.empty() || is_8bit_format(format_of(output));
+  return is_8bit && !options.verify ? PixelFormat::srgb8 : PixelFormat::linear;
+}
+
+RenderSettings render_settings(const Options& options, const fs::path& output, int threads) {
   RenderSettings settings;
+  settings.pixel_format = choose_pixel_format(options, output);
   settings.width = options.width;
   settings.height = options.height;
   settings.samples_per_pixel = options.samples_per_pixel;
@@ -137,6 +144,11 @@ void report(const Options& options, const RunStats& stats, bool to_stderr) {
   } else {
     print_out(text);
   }
+}
+
+std::vector<unsigned char> encode_picture(const Frame& frame, const std::string& format, int threads) {
+  return frame.rgb.empty() ? encode_image(format, frame.srgb8, frame.width, frame.height, threads)
+                           : encode_image(format, frame.rgb, frame.width, frame.height, threads);
 }
 
 void describe(const Options& options, const Tracer& tracer, const Frame& frame, RunStats& stats) {
@@ -220,7 +232,7 @@ int run(const Options& given, Clock::time_point start) {
   const Tracer tracer(Scene(std::move(desc)), tracer_settings);
   stats.build_seconds = seconds_since(phase_start);
 
-  const RenderSettings settings = render_settings(options, stats.threads);
+  const RenderSettings settings = render_settings(options, output, stats.threads);
   enter_phase(Phase::rendering);
   phase_start = Clock::now();
   const Frame frame = watched(options, "rendering", settings,
@@ -243,7 +255,7 @@ int run(const Options& given, Clock::time_point start) {
   if (!output.empty() && signal_received() == 0) {
     save(output, extra_files.layers_in_picture
                      ? encode_layers(frame, tracer.scene().desc().object_names, stats.threads)
-                     : encode_image(format_of(output), frame.rgb, frame.width, frame.height, stats.threads));
+                     : encode_picture(frame, format_of(output), stats.threads));
     stats.output = output.string();
   }
   stats.write_seconds = seconds_since(phase_start);

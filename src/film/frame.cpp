@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/film/frame.hpp"
 
+#include "src/film/srgb.hpp"
+#include "src/scene/threads.hpp"
+
 #include <fastrt/error.hpp>
 
 #include <algorithm>
@@ -81,6 +84,21 @@ bool differs(const AovPlane& a, const AovPlane& b, std::size_t pixel) {
   return false;
 }
 
+void compare_linear(const Frame& a, const Frame& b, std::size_t pixel, FrameDifference& difference) {
+  if (std::memcmp(&a.rgb[3 * pixel], &b.rgb[3 * pixel], 3 * sizeof(float)) != 0) ++difference.pixels;
+  for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
+    const double channel = std::fabs(static_cast<double>(a.rgb[c]) - static_cast<double>(b.rgb[c]));
+    if (channel > difference.largest) difference.largest = channel;
+  }
+  if (a.primitive[pixel] != b.primitive[pixel]) ++difference.primitives;
+}
+
+void compare_codes(const Frame& a, const Frame& b, std::size_t pixel, FrameDifference& difference) {
+  if (std::memcmp(&a.srgb8[3 * pixel], &b.srgb8[3 * pixel], 3) != 0) ++difference.pixels;
+  for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c)
+    difference.largest = std::max(difference.largest, std::abs(a.srgb8[c] - b.srgb8[c]) / 255.0);
+}
+
 void add(const TestCounts& tests, TestCounts& to) {
   to.boxes += tests.boxes;
   to.primitives += tests.primitives;
@@ -104,6 +122,27 @@ Frame make_frame(int width, int height, const std::vector<Aov>& aovs) {
   for (const Aov aov : aovs)
     if (frame.find(aov) == nullptr) frame.aovs.push_back(empty_plane(aov, pixels));
   return frame;
+}
+
+Frame make_srgb8_frame(int width, int height) {
+  Frame frame;
+  frame.width = width;
+  frame.height = height;
+  frame.srgb8.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return frame;
+}
+
+void keep_pixels(const RenderSettings& settings, Frame& frame) {
+  if (settings.pixel_format != PixelFormat::srgb8 || !frame.srgb8.empty()) return;
+  const std::size_t row = 3 * static_cast<std::size_t>(frame.width);
+  frame.srgb8.resize(frame.rgb.size());
+#pragma omp parallel for schedule(static) num_threads(thread_count(settings.threads))
+  for (int y = 0; y < frame.height; ++y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * row;
+    to_srgb8(frame.rgb.data() + begin, row, frame.srgb8.data() + begin);
+  }
+  frame.rgb = {};
+  frame.primitive = {};
 }
 
 Frame black_frame(int width, int height, const std::vector<Aov>& aovs) {
@@ -149,13 +188,12 @@ void FrameProgress::finish(Frame& frame) {
 
 FrameDifference compare(const Frame& a, const Frame& b) {
   FrameDifference difference;
-  for (std::size_t pixel = 0; pixel < a.primitive.size(); ++pixel) {
-    if (std::memcmp(&a.rgb[3 * pixel], &b.rgb[3 * pixel], 3 * sizeof(float)) != 0) ++difference.pixels;
-    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
-      const double channel = std::fabs(static_cast<double>(a.rgb[c]) - static_cast<double>(b.rgb[c]));
-      if (channel > difference.largest) difference.largest = channel;
-    }
-    if (a.primitive[pixel] != b.primitive[pixel]) ++difference.primitives;
+  const std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    if (a.rgb.empty())
+      compare_codes(a, b, pixel, difference);
+    else
+      compare_linear(a, b, pixel, difference);
     for (const AovPlane& plane : a.aovs) {
       const AovPlane* other = b.find(plane.aov);
       if (other != nullptr && !differs(plane, *other, pixel)) continue;

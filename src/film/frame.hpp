@@ -22,6 +22,13 @@ Crop part_of(const RenderSettings& settings);
 // A frame's memory; its colours and primitives are for the threads to fill, who so touch it first.
 Frame make_frame(int width, int height, const std::vector<Aov>& aovs);
 
+// One that keeps codes alone.
+Frame make_srgb8_frame(int width, int height);
+
+// Makes codes of a frame's linear pixels, which are let go, if that is what the settings ask for and there
+// are none yet.
+void keep_pixels(const RenderSettings& settings, Frame& frame);
+
 // A black frame that sees nothing, with the AOVs that are asked for.
 Frame black_frame(int width, int height, const std::vector<Aov>& aovs = {});
 

@@ -213,7 +213,9 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
 } // namespace reference
 
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-  return reference::render(scene, reference::BruteForce(scene), camera, settings);
+  Frame frame = reference::render(scene, reference::BruteForce(scene), camera, settings);
+  keep_pixels(settings, frame);
+  return frame;
 }
 
 } // namespace fastrt

@@ -7,6 +7,7 @@
 #include "src/film/frame.hpp"
 #include "src/render/caustics.hpp"
 #include "src/render/forward.hpp"
+#include "src/render/srgb8_tile.hpp"
 #include "src/scene/threads.hpp"
 #include "src/trace/point_media.hpp"
 
@@ -119,46 +120,54 @@ TileJob job_of_tile(const TileJob& frame_job, int tile) {
   return job;
 }
 
-// One thread's share of the tiles, until none is left.
-void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, std::atomic<int>& next_tile,
-                  FrameProgress& progress) {
+// One thread's share of the tiles, until none is left. codes: of the frame, if it keeps nothing else.
+void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, unsigned char* codes,
+                  std::atomic<int>& next_tile, FrameProgress& progress) {
   TileMemory memory(frame_job.max_depth);
+  Srgb8Tile pixels;
   const int count = tile_count(frame_job);
   while (!progress.stopped()) {
     const int tile = next_tile.fetch_add(1, std::memory_order_relaxed);
     if (tile >= count) return;
     TileRayCounts rays{};
-    parts.kernels->render_tile(job_of_tile(frame_job, tile), memory.scratch(), rays);
+    const TileJob job = job_of_tile(frame_job, tile);
+    parts.kernels->render_tile(codes == nullptr ? job : pixels.alone(job), memory.scratch(), rays);
+    if (codes != nullptr) pixels.put(job, codes);
     progress.part_done(to_counts(rays), {to_counts(rays.primary_tests), to_counts(rays.shadow_tests),
                                          to_counts(rays.secondary_tests)});
   }
 }
 
 // A tile that nobody came to: black, and sees nothing.
-void blacken(const TileJob& job) {
+void blacken(const TileJob& job, unsigned char* codes) {
   const int x_end = std::min(job.x + tile_side, job.x_end), y_end = std::min(job.y + tile_side, job.y_end);
   for (int y = job.y; y < y_end; ++y) {
     const std::ptrdiff_t row = std::ptrdiff_t{y - job.y_begin} * (job.x_end - job.x_begin) - job.x_begin;
+    if (codes != nullptr) {
+      std::fill(codes + 3 * (row + job.x), codes + 3 * (row + x_end), static_cast<unsigned char>(0));
+      continue;
+    }
     std::fill(job.rgb + 3 * (row + job.x), job.rgb + 3 * (row + x_end), 0.0F);
     std::fill(job.primitive + row + job.x, job.primitive + row + x_end, no_primitive);
   }
 }
 
 // All tiles, by all threads.
-void render_all(const Tracer::Parts& parts, const TileJob& job, int threads, FrameProgress& progress) {
+void render_all(const Tracer::Parts& parts, const TileJob& job, unsigned char* codes, int threads,
+                FrameProgress& progress) {
   std::atomic<int> next_tile{0};
 #pragma omp parallel num_threads(thread_count(threads))
   {
     // Exceptions must not leave a parallel region.
     try {
-      render_tiles(parts, job, next_tile, progress);
+      render_tiles(parts, job, codes, next_tile, progress);
     } catch (...) {
       progress.failed(std::current_exception());
     }
   }
   // Whoever took a tile has finished it.
   if (job.round.sum == nullptr)
-    for (int tile = next_tile; tile < tile_count(job); ++tile) blacken(job_of_tile(job, tile));
+    for (int tile = next_tile; tile < tile_count(job); ++tile) blacken(job_of_tile(job, tile), codes);
 }
 
 // Round by round, each of all tiles.
@@ -172,7 +181,7 @@ void render_adaptively(const Tracer::Parts& parts, TileJob job, const RenderSett
     job.round.active = film.first() == 0 ? nullptr : film.active().data();
     job.round.sum = film.sum().data();
     job.round.lobe_sum = film.lobe_sum().empty() ? nullptr : film.lobe_sum().data();
-    render_all(parts, job, settings.threads, progress);
+    render_all(parts, job, nullptr, settings.threads, progress);
     job.aovs = {};
     going_on = film.next_round();
   }
@@ -186,9 +195,15 @@ void show_caustics(Caustics& caustics, FrameProgress& progress, TileJob& job) {
   job.caustics = &caustics.map();
 }
 
-} // namespace
+Frame frame_memory(const RenderSettings& settings, const Crop& part) {
+  const int width = part.x1 - part.x0, height = part.y1 - part.y0;
+  if (settings.adaptive > 0.0F) return black_frame(width, height, settings.aovs);
+  if (settings.pixel_format == PixelFormat::srgb8 && settings.aovs.empty())
+    return make_srgb8_frame(width, height);
+  return make_frame(width, height, settings.aovs);
+}
 
-Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {
+Frame render_pixels(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {
   const Tracer::Parts& parts = tracer.parts();
   if (parts.scalar_bvh && parts.view.geometry.culls == 0)
     return render_reference(parts.scene, camera, settings);
@@ -197,8 +212,7 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
   check(settings);
   const CameraFrame camera_frame = make_camera_frame(camera, settings.width, settings.height);
   const Crop part = part_with_margin(settings);
-  const auto make = settings.adaptive > 0.0F ? black_frame : make_frame;
-  Frame frame = make(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
+  Frame frame = frame_memory(settings, part);
   TileJob job = make_job(parts, camera_frame, settings, part, frame);
   std::optional<Caustics> caustics;
   if (settings.caustic_photons > 0) caustics.emplace(parts, settings);
@@ -208,9 +222,17 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
   if (settings.adaptive > 0.0F)
     render_adaptively(parts, job, settings, frame, progress);
   else
-    render_all(parts, job, settings.threads, progress);
+    render_all(parts, job, frame.srgb8.data(), settings.threads, progress);
   progress.finish(frame);
   return cut_out(std::move(frame), part, part_of(settings));
+}
+
+} // namespace
+
+Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {
+  Frame frame = render_pixels(tracer, camera, settings);
+  keep_pixels(settings, frame);
+  return frame;
 }
 
 } // namespace fastrt

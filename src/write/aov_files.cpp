@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // AOVs as channels of one file, and as pictures.
+#include "src/film/srgb.hpp"
 #include "src/write/formats.hpp"
-#include "src/write/srgb.hpp"
 
 #include <fastrt/write.hpp>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoders behind encode_image. Each takes 3 * width * height linear values and returns the whole file.
+// The encoders behind encode_image. Each takes 3 * width * height values and returns the whole file.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,12 +11,18 @@ namespace fastrt {
 
 using Bytes = std::vector<unsigned char>;
 
+// Rows from the top, linear or, where those are null, 8-bit sRGB.
 struct Picture {
-  const float* rgb;
+  const float* linear;
+  const unsigned char* srgb8;
   int width, height;
   int threads;
 };
 
+// The codes of values first .. first + count - 1.
+void put_codes(const Picture& picture, std::size_t first, std::size_t count, unsigned char* codes);
+
+// 8 bits a channel, of either kind of picture; pfm of linear ones.
 Bytes encode_png(const Picture& picture);
 Bytes encode_ppm(const Picture& picture);
 Bytes encode_pfm(const Picture& picture);
@@ -30,7 +37,7 @@ struct Channels {
   std::string objects; // attribute "fastrt:objects"; empty: none
 };
 
-// exr, hdr, jpg and jpeg, by the module that holds OpenImageIO.
+// exr and hdr (linear pictures), jpg and jpeg, by the module that holds OpenImageIO.
 Bytes encode_with_module(const std::string& format, const Picture& picture);
 Bytes encode_exr(const Channels& channels);
 

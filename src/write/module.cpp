@@ -6,9 +6,9 @@
 #include "src/scene/printable.hpp"
 #include "src/scene/threads.hpp"
 #include "src/write/formats.hpp"
-#include "src/write/srgb.hpp"
 
 #include <fastrt/error.hpp>
+#include <fastrt/write.hpp>
 
 #include <cstdlib>
 #include <memory>
@@ -50,15 +50,15 @@ Bytes encode(const OiioPicture& request) {
 
 Bytes encode_with_module(const std::string& format, const Picture& picture) {
   check_limits(format, picture);
-  const bool is_float = format == "exr" || format == "hdr";
+  const bool is_float = !is_8bit_format(format);
   Bytes codes;
   if (!is_float) {
     codes.resize(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-    to_srgb8(picture.rgb, codes.size(), codes.data());
+    put_codes(picture, 0, codes.size(), codes.data());
   }
   OiioPicture request{};
   request.format = format.c_str();
-  request.pixels = is_float ? static_cast<const void*>(picture.rgb) : codes.data();
+  request.pixels = is_float ? static_cast<const void*>(picture.linear) : codes.data();
   request.is_float = is_float ? 1 : 0;
   request.width = picture.width;
   request.height = picture.height;

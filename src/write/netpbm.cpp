@@ -2,7 +2,6 @@
 // PPM (8 bits a channel, sRGB) and PFM (linear floats).
 #include "src/scene/threads.hpp"
 #include "src/write/formats.hpp"
-#include "src/write/srgb.hpp"
 
 #include <bit>
 #include <cstring>
@@ -34,7 +33,7 @@ Bytes encode_ppm(const Picture& picture) {
 #pragma omp parallel for schedule(static) num_threads(thread_count(picture.threads))
   for (std::ptrdiff_t y = 0; y < height; ++y) {
     const std::size_t begin = static_cast<std::size_t>(y) * row;
-    to_srgb8(picture.rgb + begin, row, body + begin);
+    put_codes(picture, begin, row, body + begin);
   }
   return out;
 }
@@ -46,7 +45,7 @@ Bytes encode_pfm(const Picture& picture) {
   Bytes out = with_header(header, row * height * sizeof(float));
   unsigned char* body = out.data() + header.size();
   for (std::size_t y = 0; y < height; ++y) // the bottom row first
-    std::memcpy(body + y * row * sizeof(float), picture.rgb + (height - 1 - y) * row, row * sizeof(float));
+    std::memcpy(body + y * row * sizeof(float), picture.linear + (height - 1 - y) * row, row * sizeof(float));
   return out;
 }
 

@@ -6,7 +6,6 @@
 #include "src/write/deflate.hpp"
 #include "src/write/formats.hpp"
 #include "src/write/png_filter.hpp"
-#include "src/write/srgb.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -64,9 +63,9 @@ Stripe encode_stripe(const Picture& picture, std::size_t first, std::size_t last
   const std::size_t filtered_bytes = (row_bytes + 1) * (last - first);
   const auto filtered = std::make_unique_for_overwrite<unsigned char[]>(filtered_bytes);
   unsigned char *above = rows.data() + pixel, *row = above + row_bytes + pixel;
-  if (first != 0) to_srgb8(picture.rgb + (first - 1) * row_bytes, row_bytes, above);
+  if (first != 0) put_codes(picture, (first - 1) * row_bytes, row_bytes, above);
   for (std::size_t y = first; y < last; ++y) {
-    to_srgb8(picture.rgb + y * row_bytes, row_bytes, row);
+    put_codes(picture, y * row_bytes, row_bytes, row);
     filter_row(row, above, row_bytes, scratch.data(), filtered.get() + (y - first) * (row_bytes + 1));
     std::swap(row, above);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene signature: one colour per object.
-#include "src/write/srgb.hpp"
+#include "src/film/srgb.hpp"
 
 #include <fastrt/write.hpp>
 

@@ -5,7 +5,6 @@
 #include "src/write/checksum.hpp"
 #include "src/write/deflate.hpp"
 #include "src/write/formats.hpp"
-#include "src/write/srgb.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -35,7 +34,7 @@ Bytes encode_strip(const Picture& picture, std::size_t first, std::size_t last) 
   const std::size_t row_bytes = pixel * static_cast<std::size_t>(picture.width);
   Bytes row(row_bytes), differences(row_bytes * (last - first));
   for (std::size_t y = first; y < last; ++y) {
-    to_srgb8(picture.rgb + y * row_bytes, row_bytes, row.data());
+    put_codes(picture, y * row_bytes, row_bytes, row.data());
     unsigned char* out = differences.data() + (y - first) * row_bytes;
     std::copy_n(row.begin(), pixel, out);
     for (std::size_t i = pixel; i < row_bytes; ++i)

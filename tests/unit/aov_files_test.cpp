@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // AOVs in files, and the colours of the scene signature.
 #include "src/film/frame.hpp"
-#include "src/write/srgb.hpp"
+#include "src/film/srgb.hpp"
 
 #include <fastrt/write.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formats besides PNG: what is in the file, and that OpenImageIO reads the same picture back.
-#include "src/write/srgb.hpp"
+#include "src/film/srgb.hpp"
 #include "tests/unit/image_pictures.hpp"
 
 #include <fastrt/error.hpp>

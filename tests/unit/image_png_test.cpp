@@ -3,7 +3,7 @@
 #include "src/write/checksum.hpp"
 #include "src/write/deflate.hpp"
 #include "src/write/huffman.hpp"
-#include "src/write/srgb.hpp"
+#include "src/film/srgb.hpp"
 #include "tests/unit/image_pictures.hpp"
 
 #include <fastrt/error.hpp>

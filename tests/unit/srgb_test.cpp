@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table against the curve itself, in long double.
-#include "src/write/srgb.hpp"
+#include "src/film/srgb.hpp"
 
 #include <gtest/gtest.h>
 

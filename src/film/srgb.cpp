@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/write/srgb.hpp"
+#include "src/film/srgb.hpp"
 
 #include <algorithm>
 #include <array>
