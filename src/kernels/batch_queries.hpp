@@ -104,11 +104,18 @@ template <bool any>
   unpack_hits(packed, hits);
 }
 
+// With fewer rays than this of one origin or direction, whether they are scattered is not worth finding out.
+inline constexpr int least_dense_tile = 96;
+
 // Rays that are neighbours: what lies in pencils as these, all others in beams and packets.
 template <bool any>
 static void trace_coherent(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  const bool culls = scene.culls != 0 && scene.root != no_child;
   RayBits looking = looking_rays(rays);
-  const bool pencils = !any && scene.culls != 0 && scene.root != no_child;
+  if (rays.shape != BatchShape::coherent && culls && count_rays(looking) >= least_dense_tile &&
+      trace_dense_tile<any>(scene, rays, hits))
+    return;
+  const bool pencils = !any && culls;
   if ((pencils && trace_pencils(scene, rays, looking, hits)) || has_gaps(looking))
     trace_packed<any>(scene, rays, looking, hits);
   else
@@ -119,7 +126,8 @@ template <bool any>
 static void trace_batch(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   clear_hits(rays, hits);
   hits.lone = 0;
-  if (rays.shape == BatchShape::coherent)
+  if (rays.shape == BatchShape::coherent || rays.shape == BatchShape::scattered_origin ||
+      rays.shape == BatchShape::scattered_parallel)
     trace_coherent<any>(scene, rays, hits);
   else
     trace_tree<any>(scene, rays, hits);

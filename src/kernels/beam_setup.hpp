@@ -198,7 +198,7 @@ FASTRT_INLINE bool sees_too_much(const GeometryView& scene, const Beam& beam) {
                    GroupF::load_aligned(beam.groups.slope_y1) - GroupF::load_aligned(beam.groups.slope_y0);
   const Mask<beam_groups> used = width >= GroupF(0.0F);
   const float area = simd::hadd(select(used, width * height, GroupF(0.0F)));
-  return area * static_cast<float>(scene.triangle_count) >
+  return area * static_cast<float>(scene.primitive_count) >
          most_in_view * static_cast<float>(__builtin_popcount(to_bits(used)));
 }
 

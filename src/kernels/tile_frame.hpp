@@ -54,6 +54,13 @@ FASTRT_INLINE F cull_dot(const V3<F>& a, const V3<F>& b) {
   return cull_mul_add(a.z, b.z, cull_mul_add(a.y, b.y, a.x * b.x));
 }
 
+FASTRT_INLINE bool has_one_origin(BatchShape shape) {
+  return shape == BatchShape::common_origin || shape == BatchShape::scattered_origin;
+}
+FASTRT_INLINE bool is_parallel(BatchShape shape) {
+  return shape == BatchShape::parallel || shape == BatchShape::scattered_parallel;
+}
+
 FASTRT_INLINE V3<float> ray_dir(const RayBatch& rays, int i) {
   return {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]};
 }

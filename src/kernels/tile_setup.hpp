@@ -18,7 +18,7 @@ FASTRT_INLINE LiveRays find_live_rays(const RayBatch& rays) {
   live.first = live.last = -1;
   live.backwards = false;
   const PacketF zero(0.0F), most(__builtin_inff());
-  const bool one_origin = rays.shape == BatchShape::common_origin;
+  const bool one_origin = has_one_origin(rays.shape);
   for (int i = 0; i < rays.count; i += widest) {
     const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
     const PacketF size = (abs(dir.x) + abs(dir.y)) + abs(dir.z);
@@ -66,7 +66,7 @@ FASTRT_INLINE V3<float> minus(const V3<float>& a, const V3<float>& b) {
 
 FASTRT_INLINE TileFrame make_tile_frame(const RayBatch& rays, const LiveRays& live) {
   TileFrame f{};
-  f.perspective = rays.shape == BatchShape::common_origin;
+  f.perspective = has_one_origin(rays.shape);
   f.w = f.perspective ? middle_direction(rays, live) : unit(ray_dir(rays, live.first));
   // Along the tile's first row where that exists: then a tile of camera rays has rectangles without waste.
   const int row_end = 3 * group_size + 5;

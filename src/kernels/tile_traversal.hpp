@@ -4,6 +4,7 @@
 // concern few.
 #pragma once
 
+#include "src/kernels/tile_density.hpp"
 #include "src/kernels/tile_leaves.hpp"
 #include "src/kernels/tile_split.hpp"
 
@@ -82,6 +83,20 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
   if (tile.waiting.count != 0) meet_waiting(tile);
 }
 
+// Sees to how far the groups of a tile that has been projected look.
+template <bool any, class View>
+FASTRT_INLINE void aim_tile(TileTraversal<any, View>& tile) {
+  for (int g = 0; g < batch_groups; ++g)
+    tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.open[g], g);
+  aim_view(tile.view);
+}
+
+template <bool any, class View>
+[[gnu::noinline]] static void trace_aimed(TileTraversal<any, View>& tile) noexcept {
+  traverse(tile);
+  count_tests(tile.hits, tile.nodes, tile.tests);
+}
+
 // Traces the rays in `live` as one. If they are scattered, nothing is done but to move some of them to
 // `others`.
 template <bool any, class View>
@@ -94,11 +109,8 @@ static Projection trace_together(const GeometryView& scene, const RayBatch& rays
   if (projection == Projection::scattered && !split_groups(tile.points, tile.view.groups, live, others))
     return Projection::too_wide;
   if (projection != Projection::done) return projection;
-  for (int g = 0; g < batch_groups; ++g)
-    tile.view.groups.far[g] = group_far(hits, tile.view.groups, tile.open[g], g);
-  aim_view(tile.view);
-  traverse(tile);
-  count_tests(hits, tile.nodes, tile.tests);
+  aim_tile(tile);
+  trace_aimed(tile);
   return Projection::done;
 }
 
@@ -125,10 +137,34 @@ static bool trace_tile_in(const GeometryView& scene, const RayBatch& rays, HitBa
   return true;
 }
 
+// Traces the batch as one; false, and nothing done, where it is scattered.
+template <bool any, class View>
+static bool trace_dense_tile_in(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+  const LiveRays live = find_live_rays(rays);
+  if (live.first < 0) return true;
+  if (live.backwards) return false;
+  TileTraversal<any, View> tile(scene, rays, hits, live);
+  tile.view.frame = make_tile_frame(rays, live);
+  if (project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups) != Projection::done)
+    return false;
+  aim_tile(tile);
+  if (!sees_little(scene, tile.view, most_in_tile, View::begins_apart ? __builtin_inff() : all_directions))
+    return false;
+  trace_aimed(tile);
+  return true;
+}
+
 template <bool any>
 static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
-  return rays.shape == BatchShape::parallel ? trace_tile_in<any, ParallelView>(scene, rays, hits)
-                                            : trace_tile_in<any, TileView>(scene, rays, hits);
+  return is_parallel(rays.shape) ? trace_tile_in<any, ParallelView>(scene, rays, hits)
+                                 : trace_tile_in<any, TileView>(scene, rays, hits);
+}
+
+template <bool any>
+[[gnu::noinline]] static bool trace_dense_tile(const GeometryView& scene, const RayBatch& rays,
+                                               HitBatch& hits) noexcept {
+  return is_parallel(rays.shape) ? trace_dense_tile_in<any, ParallelView>(scene, rays, hits)
+                                 : trace_dense_tile_in<any, TileView>(scene, rays, hits);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -14,9 +14,11 @@ inline constexpr int batch_groups = batch_size / group_size;
 // What is known of the rays of a batch. It decides how they are traced, never what they hit.
 enum class BatchShape : std::uint32_t {
   any,
-  coherent,      // neighbours are alike
-  common_origin, // all origins are equal
-  parallel,      // all directions are equal
+  coherent,           // neighbours are alike
+  common_origin,      // all origins are equal, and neighbours point to places side by side
+  parallel,           // all directions are equal, and neighbours begin side by side
+  scattered_origin,   // all origins are equal; neighbours may well point to places far apart
+  scattered_parallel, // all directions are equal; neighbours may well begin far apart
 };
 
 // Rays 0 .. count - 1 are live. A ray hits what lies in t_min < t < t_max and is not the primitive `exclude`.

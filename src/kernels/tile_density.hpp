@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a batch is worth a tile or a pencil: groups that look at much of the scene are each shown what all
+// their rays need, which takes longer than to follow few rays at a time.
+#pragma once
+
+#include "src/kernels/tile_culling.hpp"
+
+namespace fastrt::FASTRT_ISA_NAMESPACE {
+
+// A group may look at so many primitives, if these lay evenly about the part of the plane that the scene
+// covers. (What does not go as a tile would be a beam or packets, which are good at few rays; and of mirrored
+// rays more is lost before they are that.)
+inline constexpr float most_in_tile = 3.0F, most_in_pencil = 16.0F;
+
+// The area of all directions together, as far as a plane may stand for them.
+inline constexpr float all_directions = 12.6F;
+
+// The area of that part. (Unused children of the root have inverted boxes.)
+template <class View>
+FASTRT_INLINE float scene_area(const GeometryView& scene, const View& view) {
+  using N = Floats<node_lanes>;
+  const N padding(view.frame.padding), nowhere(__builtin_inff());
+  const float* const root = scene.nodes[scene.root].lower_x;
+  N x0 = nowhere, minus_x1 = nowhere, y0 = nowhere, minus_y1 = nowhere;
+  for (int half = 0; half < wide_children; half += node_lanes) {
+    const float* const columns = root + half;
+    const Extent<N> u = box_extent(view.u, columns, padding), v = box_extent(view.v, columns, padding),
+                    w = box_extent(view.w, columns, padding);
+    const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
+    const MaskOf<N> used = load<N>(columns) <= load<N>(columns + wide_children);
+    x0 = min(x0, select(used, r.x0, nowhere));
+    minus_x1 = min(minus_x1, select(used, negate(r.x1), nowhere));
+    y0 = min(y0, select(used, r.y0, nowhere));
+    minus_y1 = min(minus_y1, select(used, negate(r.y1), nowhere));
+  }
+  return (reduce_min(x0) + reduce_min(minus_x1)) * (reduce_min(y0) + reduce_min(minus_y1));
+}
+
+// most: primitives for a group; most_area: what the scene cannot be larger than.
+template <class View>
+FASTRT_INLINE bool sees_little(const GeometryView& scene, const View& view, float most, float most_area) {
+  if (is_leaf(scene.root)) return true;
+  const PacketF zero(0.0F);
+  PacketF sum = zero;
+  std::uint32_t used = 0;
+  for (int g = 0; g < batch_groups; g += widest) {
+    const PacketF width =
+                      PacketF::load_aligned(view.groups.x1 + g) - PacketF::load_aligned(view.groups.x0 + g),
+                  height =
+                      PacketF::load_aligned(view.groups.y1 + g) - PacketF::load_aligned(view.groups.y0 + g);
+    const PacketM rays = width >= zero;
+    sum = sum + select(rays, width * height, zero);
+    used |= to_bits(rays) << g;
+  }
+  const float whole = scene_area(scene, view), area = whole < most_area ? whole : most_area;
+  return simd::hadd(sum) * static_cast<float>(scene.primitive_count) <=
+         most * static_cast<float>(__builtin_popcount(used)) * area;
+}
+
+} // namespace fastrt::FASTRT_ISA_NAMESPACE
