@@ -29,21 +29,31 @@ struct LightBits {
   std::uint32_t u, v;
 };
 
-// Sample `index` of `count`: a Hammersley set, shifted at random (Cranley & Patterson 1976), so that every
-// row and column of a count-fold grid holds one.
-[[gnu::always_inline]] static inline LightBits light_bits(const LightQuestion& question, std::uint32_t index,
-                                                          std::uint32_t count) {
+// What shifts the samples of a question, all alike.
+[[gnu::always_inline]] static inline LightBits light_key(const LightQuestion& question) {
   const std::uint32_t at = hash32(question.x + hash32(question.y + hash32(question.sample)));
   const std::uint32_t key =
       hash32(at + hash32(question.light + hash32(question.depth + hash32(question.seed))));
-  const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
-  return {stratum + key, reverse_bits(index) + hash32(key)};
+  return {key, hash32(key)};
 }
 
-// Sample `index` of `count` on a light of a shape that is not a mesh.
-[[gnu::always_inline]] static inline LightPlace light_place(LightShape shape, const LightQuestion& question,
-                                                            std::uint32_t index, std::uint32_t count) {
-  const LightBits bits = light_bits(question, index, count);
+// Point `index` of `count` of a Hammersley set, so that every row and column of a count-fold grid holds one.
+[[gnu::always_inline]] static inline LightBits light_point(std::uint32_t index, std::uint32_t count) {
+  const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
+  return {stratum, reverse_bits(index)};
+}
+
+// The sample: the point, shifted at random (Cranley & Patterson 1976).
+[[gnu::always_inline]] static inline LightBits shifted(const LightBits& point, const LightBits& key) {
+  return {point.u + key.u, point.v + key.v};
+}
+[[gnu::always_inline]] static inline LightBits light_bits(const LightQuestion& question, std::uint32_t index,
+                                                          std::uint32_t count) {
+  return shifted(light_point(index, count), light_key(question));
+}
+
+// The place of a sample on a light of a shape that is not a mesh. (No branches but on the shape.)
+[[gnu::always_inline]] static inline LightPlace light_place(LightShape shape, const LightBits& bits) {
   const float a = static_cast<float>(static_cast<std::int32_t>(bits.u >> 8U)) * 0x1p-23F - 1.0F;
   const float b = static_cast<float>(static_cast<std::int32_t>(bits.v >> 8U)) * 0x1p-23F - 1.0F;
   if (shape == LightShape::rectangle) return {a, b, 0.0F};
@@ -62,13 +72,11 @@ struct MeshPlace {
   float a, b, c;
 };
 
-// Sample `index` of `count` on `triangles` triangles, of which number i is chosen by the numbers from
-// begin[i] up to begin[i + 1]. What is left of the number that chose the triangle is spread out again and
+// The place of a sample on `triangles` triangles, of which number i is chosen by the numbers from begin[i] up
+// to begin[i + 1]. What is left of the number that chose the triangle is spread out again and
 // says where in it, so that strata of the mesh are strata of each triangle.
 [[gnu::always_inline]] static inline MeshPlace mesh_place(const std::uint32_t* begin, std::uint32_t triangles,
-                                                          const LightQuestion& question, std::uint32_t index,
-                                                          std::uint32_t count) {
-  const LightBits bits = light_bits(question, index, count);
+                                                          const LightBits& bits) {
   std::uint32_t chosen = 0;
   for (std::uint32_t end = triangles; end - chosen > 1;) {
     const std::uint32_t middle = chosen + (end - chosen) / 2;

@@ -106,14 +106,14 @@ enum class PhotonTurn : std::uint32_t { reflected = 1, refracted = 2, scattered 
 // Where on a light with a size that is no mesh photon `index` starts, in units of its half axes.
 [[gnu::always_inline]] static inline LightPlace photon_start(LightShape shape, std::uint32_t index,
                                                              std::uint32_t light, std::uint32_t seed) {
-  return light_place(shape, start_question(index, light, seed), 0, 1);
+  return light_place(shape, light_bits(start_question(index, light, seed), 0, 1));
 }
 
 // Where on a mesh; begin and triangles as in mesh_place().
 [[gnu::always_inline]] static inline MeshPlace photon_mesh_start(const std::uint32_t* begin,
                                                                  std::uint32_t triangles, std::uint32_t index,
                                                                  std::uint32_t light, std::uint32_t seed) {
-  return mesh_place(begin, triangles, start_question(index, light, seed), 0, 1);
+  return mesh_place(begin, triangles, light_bits(start_question(index, light, seed), 0, 1));
 }
 
 } // namespace fastrt

@@ -154,16 +154,15 @@ struct SampleOffset {
 [[gnu::always_inline]] static inline SampleOffset disk_point(float a, float b) {
   const bool wide = (a < 0.0F ? -a : a) > (b < 0.0F ? -b : b);
   const float radius = wide ? a : b;
-  if (radius == 0.0F) return {0.0F, 0.0F};
-  const float angle = 0.785398163F * ((wide ? b : a) / radius);
+  const float angle = 0.785398163F * ((wide ? b : a) / (radius == 0.0F ? 1.0F : radius)); // no 0 / 0
   const float square = angle * angle;
   const float sine =
       angle * (1.0F + square * (-0.166666667F + square * (0.00833333333F + square * -0.000198412698F)));
   const float cosine =
       1.0F +
       square * (-0.5F + square * (0.0416666667F + square * (-0.00138888889F + square * 2.48015873e-5F)));
-  if (wide) return {radius * cosine, radius * sine};
-  return {radius * sine, radius * cosine};
+  const float along = radius * cosine, across = radius * sine;
+  return {wide ? along : across, wide ? across : along};
 }
 
 // Where the ray of sample `index` of pixel (x, y) leaves the lens, a disk of radius 1: as evenly spread, and

@@ -101,16 +101,17 @@ LightPoint point_of(const Light& light, const LightMesh& mesh, const LightQuesti
                     std::uint32_t index, std::uint32_t count) {
   LightPoint point;
   point.share = 1.0F / static_cast<float>(count);
+  const LightBits bits = light_bits(question, index, count);
   if (light.kind == LightKind::mesh) {
-    const MeshPlace place = mesh_place(mesh.begin.data(), static_cast<std::uint32_t>(mesh.triangles.size()),
-                                       question, index, count);
+    const MeshPlace place =
+        mesh_place(mesh.begin.data(), static_cast<std::uint32_t>(mesh.triangles.size()), bits);
     const EmitterTriangle& triangle = mesh.triangles[place.triangle];
     point.mesh = &mesh;
     point.normal = triangle.normal;
     point.position = (place.a * triangle.a + place.b * triangle.b) + place.c * triangle.c;
   } else {
     const LightAxes axes = light_axes(light);
-    const LightPlace place = light_place(shape_of(light), question, index, count);
+    const LightPlace place = light_place(shape_of(light), bits);
     point.position = ((light.position + place.x * axes.u) + place.y * axes.v) + place.z * axes.w;
   }
   return point;

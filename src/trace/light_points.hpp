@@ -31,36 +31,62 @@ FASTRT_INLINE LightQuestion question_of(const TileJob& job, const PathBatch& ray
           job.seed};
 }
 
-// A point of a mesh, into row i.
-FASTRT_INLINE void place_on_mesh(const LightRow& light, const MeshPlace& place, int i, LightBatch& out) {
-  const EmitterRow& triangle = light.emitters[place.triangle];
-  float* const positions[3] = {out.position_x, out.position_y, out.position_z};
-  float* const normals[3] = {out.normal_x, out.normal_y, out.normal_z};
-  for (int axis = 0; axis < 3; ++axis) {
-    positions[axis][i] = (triangle.corners[0][axis] * place.a + triangle.corners[1][axis] * place.b) +
-                         triangle.corners[2][axis] * place.c;
-    normals[axis][i] = triangle.normal[axis];
+// What shifts the samples of light k, ray by ray: the same for all of them.
+static void key_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, const TileScratch& scratch,
+                      LightBatch& out) noexcept {
+  for (int i = 0; i < rays.count; ++i) {
+    const LightBits key = light_key(question_of(job, rays, k, i, scratch));
+    out.key_u[i] = key.u;
+    out.key_v[i] = key.v;
   }
 }
 
-// The points of a light with a size that sample `index` asks.
-static void place_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, int index,
-                        const TileScratch& scratch, LightBatch& out) noexcept {
-  const LightRow& light = job.scene->shading.lights[k];
-  const auto shape = static_cast<LightShape>(light.shape);
-  const auto at = static_cast<std::uint32_t>(index), count = static_cast<std::uint32_t>(job.light_samples);
-  for (int i = 0; i < rays.count; ++i) {
-    const LightQuestion question = question_of(job, rays, k, i, scratch);
-    if (shape == LightShape::mesh) {
-      place_on_mesh(light, mesh_place(light.emitter_begin, light.emitter_count, question, at, count), i, out);
-      continue;
+// One sample of each of the first `count` rays, on a light of a shape that is not a mesh. (A loop that
+// compilers make SIMD of.)
+template <LightShape shape>
+static void place_on_shape(const LightRow& light, const LightBits& point, int count,
+                           LightBatch& out) noexcept {
+  const LightRow row = light; // which no store to `out` can change
+  for (int i = 0; i < count; ++i) {
+    const LightPlace place = light_place(shape, shifted(point, {out.key_u[i], out.key_v[i]}));
+    const auto at = [&](int axis) {
+      return ((row.position[axis] + row.half_axes[0][axis] * place.x) + row.half_axes[1][axis] * place.y) +
+             row.half_axes[2][axis] * place.z;
+    };
+    out.position_x[i] = at(0);
+    out.position_y[i] = at(1);
+    out.position_z[i] = at(2);
+  }
+}
+
+static void place_on_mesh(const LightRow& light, const LightBits& point, int count,
+                          LightBatch& out) noexcept {
+  float* const positions[3] = {out.position_x, out.position_y, out.position_z};
+  float* const normals[3] = {out.normal_x, out.normal_y, out.normal_z};
+  for (int i = 0; i < count; ++i) {
+    const MeshPlace place =
+        mesh_place(light.emitter_begin, light.emitter_count, shifted(point, {out.key_u[i], out.key_v[i]}));
+    const EmitterRow& triangle = light.emitters[place.triangle];
+    for (int axis = 0; axis < 3; ++axis) {
+      positions[axis][i] = (triangle.corners[0][axis] * place.a + triangle.corners[1][axis] * place.b) +
+                           triangle.corners[2][axis] * place.c;
+      normals[axis][i] = triangle.normal[axis];
     }
-    const LightPlace place = light_place(shape, question, at, count);
-    float* const out_axes[3] = {out.position_x, out.position_y, out.position_z};
-    for (int axis = 0; axis < 3; ++axis)
-      out_axes[axis][i] =
-          ((light.position[axis] + light.half_axes[0][axis] * place.x) + light.half_axes[1][axis] * place.y) +
-          light.half_axes[2][axis] * place.z;
+  }
+}
+
+// The points of a light with a size that sample `index` of `count` asks, after key_light().
+static void place_light(const LightRow& light, int index, int count, int rays, LightBatch& out) noexcept {
+  const LightBits point = light_point(static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count));
+  switch (static_cast<LightShape>(light.shape)) {
+  case LightShape::mesh:
+    return place_on_mesh(light, point, rays, out);
+  case LightShape::rectangle:
+    return place_on_shape<LightShape::rectangle>(light, point, rays, out);
+  case LightShape::disk:
+    return place_on_shape<LightShape::disk>(light, point, rays, out);
+  default:
+    return place_on_shape<LightShape::sphere>(light, point, rays, out);
   }
 }
 

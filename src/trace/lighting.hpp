@@ -254,8 +254,9 @@ static std::uint64_t gather_light(const TileJob& job, const PathBatch& rays, Til
       continue;
     }
     const float share = 1.0F / static_cast<float>(job.light_samples);
+    key_light(job, rays, k, scratch, scratch.light);
     for (int index = 0; index < job.light_samples; ++index) {
-      place_light(job, rays, k, index, scratch, scratch.light);
+      place_light(job.scene->shading.lights[k], index, job.light_samples, rays.count, scratch.light);
       shadow_rays += gather_one_light(job, rays, k, share, scratch);
     }
   }
