@@ -55,13 +55,26 @@ int choose_threads(const Options& options) {
   return threads;
 }
 
-// Colour, primitive id and AOVs of every pixel, twice if there are two renderings.
-void check_image_size(const Options& options) {
-  std::uint64_t values = 4;
+// What must be compared, or becomes a file of linear values, is kept as it is.
+PixelFormat choose_pixel_format(const Options& options, const fs::path& output) {
+  const bool is_8bit = output.empty() || is_8bit_format(format_of(output));
+  return is_8bit && !options.verify ? PixelFormat::srgb8 : PixelFormat::linear;
+}
+
+// What rendering keeps of a pixel: its codes; or its colour and primitive id, AOVs, and twice all of it if
+// there are two renderings.
+std::uint64_t bytes_per_pixel(const Options& options, PixelFormat format) {
+  std::uint64_t values = 0;
+  for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
   if (options.adaptive > 0) values += 11;                     // sums, counts, what the eye sees
   if (options.integrator == Integrator::forward) values += 6; // sums of 64 bits
-  for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
-  const std::uint64_t pixel_bytes = values * sizeof(float) * (options.verify ? 2 : 1);
+  const std::uint64_t codes = format == PixelFormat::srgb8 ? 3 : 0;
+  if (values == 0 && codes != 0) return codes;
+  return (values + 4) * sizeof(float) * (options.verify ? 2 : 1) + codes;
+}
+
+void check_image_size(const Options& options, PixelFormat format) {
+  const std::uint64_t pixel_bytes = bytes_per_pixel(options, format);
   const int width = options.crop ? options.crop->x1 - options.crop->x0 : options.width;
   const int height = options.crop ? options.crop->y1 - options.crop->y0 : options.height;
   const std::uint64_t bytes =
@@ -87,15 +100,9 @@ fs::path choose_output(const Options& options) {
   return path;
 }
 
-// What must be compared or becomes a file of linear values is kept as it is; layers are such a file.
-PixelFormat choose_pixel_format(const Options& options, const fs::path& output) {
-  const bool is_8bit = output.empty() || is_8bit_format(format_of(output));
-  return is_8bit && !options.verify ? PixelFormat::srgb8 : PixelFormat::linear;
-}
-
-RenderSettings render_settings(const Options& options, const fs::path& output, int threads) {
+RenderSettings render_settings(const Options& options, PixelFormat format, int threads) {
   RenderSettings settings;
-  settings.pixel_format = choose_pixel_format(options, output);
+  settings.pixel_format = format;
   settings.width = options.width;
   settings.height = options.height;
   settings.samples_per_pixel = options.samples_per_pixel;
@@ -213,8 +220,9 @@ int run(const Options& given, Clock::time_point start) {
   tracer_settings.isa = choose_isa(options);
   tracer_settings.culling = options.culling;
   tracer_settings.threads = stats.threads = choose_threads(options);
-  check_image_size(options);
   const fs::path output = choose_output(options);
+  const PixelFormat pixel_format = choose_pixel_format(options, output);
+  check_image_size(options, pixel_format);
   const ExtraFiles extra_files = choose_extra_files(options, output);
 
   Clock::time_point phase_start = Clock::now();
@@ -222,7 +230,7 @@ int run(const Options& given, Clock::time_point start) {
   const Aabb bounds = bounds_of(desc);
   take_picture_settings(desc, options);
   for (const std::string& warning : sampling_warnings(options)) warn(options, warning);
-  check_image_size(options);
+  check_image_size(options, pixel_format);
   check_crop(options);
   const Camera camera = choose_camera(options, bounds, desc);
   light_scene(options, bounds, camera, desc);
@@ -232,7 +240,7 @@ int run(const Options& given, Clock::time_point start) {
   const Tracer tracer(Scene(std::move(desc)), tracer_settings);
   stats.build_seconds = seconds_since(phase_start);
 
-  const RenderSettings settings = render_settings(options, output, stats.threads);
+  const RenderSettings settings = render_settings(options, pixel_format, stats.threads);
   enter_phase(Phase::rendering);
   phase_start = Clock::now();
   const Frame frame = watched(options, "rendering", settings,

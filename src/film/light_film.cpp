@@ -15,6 +15,7 @@ void LightFilm::develop(std::uint64_t photons, Frame& frame) const {
 RenderSettings center_settings(const RenderSettings& forward) {
   RenderSettings settings = forward;
   settings.integrator = Integrator::whitted;
+  settings.pixel_format = PixelFormat::linear;
   settings.samples_per_pixel = 1;
   settings.most_samples = 0;
   settings.max_depth = 0;

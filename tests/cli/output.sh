@@ -25,6 +25,16 @@ hdr 233f5241|233f5247
 LIST
 }
 
+# 8-bit pictures are made tile by tile; --verify keeps the linear ones.
+one_picture() {
+  local extension
+  for extension in png ppm jpg tif; do
+    expect 0 "$scenes/spheres.obj" -r 83x45 -o "codes.$extension"
+    expect 0 "$scenes/spheres.obj" -r 83x45 --verify -o "linear.$extension"
+    cmp -s "codes.$extension" "linear.$extension" || fail "another $extension"
+  done
+}
+
 default_name() {
   mkdir deep
   cp tiny.obj deep/model.v2.obj

@@ -127,15 +127,19 @@ isa_from_environment() {
 
 limits() {
   expect_error 5 '65536x65536' tiny.obj -r 65536x65536
-  expect_error 5 'max-image-mb' tiny.obj -r 256x257 --max-image-mb 1
-  expect 0 tiny.obj -r 256x256 --max-image-mb 1
+  # Three bytes a pixel where those become a picture of 8 bits, else sixteen, or more.
+  expect_error 5 'max-image-mb' tiny.obj -r 592x591 --max-image-mb 1
+  expect 0 tiny.obj -r 591x591 --max-image-mb 1
+  expect_error 5 'max-image-mb' tiny.obj -r 256x257 --max-image-mb 1 -o tiny.pfm
+  expect 0 tiny.obj -r 256x256 --max-image-mb 1 -o tiny.pfm
   expect_error 5 'max-image-mb' tiny.obj -r 256x256 --max-image-mb 1 --verify
+  expect_error 5 'max-image-mb' tiny.obj -r 256x257 --max-image-mb 1 --aov depth
   expect 0 tiny.obj "${small[@]}" --max-depth 1000000000
   grep -q '^fastrt: warning: --max-depth' err || fail "no warning"
   # Not enough memory for the picture: that is said, and is no crash.
   # A build with sanitizers reserves so much address space that it can't start under such a limit.
   (ulimit -v 400000 && "$fastrt" --version >/dev/null 2>&1) || return 0
-  (ulimit -v 400000 && expect_error 5 'memory' tiny.obj -r 8192x8190 -t 1)
+  (ulimit -v 400000 && expect_error 5 'memory' tiny.obj -r 8192x8190 -t 1 -o tiny.pfm)
 }
 
 cameras() {

@@ -13,7 +13,9 @@ TEST_P(BatchTraversal, OfOneOriginFindsWhatBruteForceFinds) {
   for (int i = 0; i < rounds(200); ++i) {
     RayRun run = origin_run(scene(), random);
     vary(run, scene(), true, random);
-    expect_same(run, any_count(random), {BatchShape::common_origin, BatchShape::coherent, BatchShape::any});
+    expect_same(
+        run, any_count(random),
+        {BatchShape::common_origin, BatchShape::scattered_origin, BatchShape::coherent, BatchShape::any});
   }
   expect_hits(0.05);
 }
@@ -23,7 +25,9 @@ TEST_P(BatchTraversal, OfOneDirectionFindsWhatBruteForceFinds) {
   for (int i = 0; i < rounds(200); ++i) {
     RayRun run = parallel_run(scene(), random);
     vary(run, scene(), false, random);
-    expect_same(run, any_count(random), {BatchShape::parallel, BatchShape::coherent, BatchShape::any});
+    expect_same(
+        run, any_count(random),
+        {BatchShape::parallel, BatchShape::scattered_parallel, BatchShape::coherent, BatchShape::any});
   }
   expect_hits(0.05);
 }
@@ -39,6 +43,14 @@ TEST_P(BatchTraversal, OfAnyRaysFindsWhatBruteForceFinds) {
     expect_same(run, any_count(random), {BatchShape::coherent, BatchShape::any});
   }
   expect_hits(0.05);
+}
+
+// What a batch of one origin or one direction may be traced as, as a tile or perhaps as one.
+BatchShape tile_shape(bool one_origin) {
+  return one_origin ? BatchShape::common_origin : BatchShape::parallel;
+}
+BatchShape scattered_shape(bool one_origin) {
+  return one_origin ? BatchShape::scattered_origin : BatchShape::scattered_parallel;
 }
 
 // Most rays of some batches, and few of others, look for nothing: those of a surface that turns away from a
@@ -57,7 +69,7 @@ TEST_P(BatchTraversal, WithGapsFindsWhatBruteForceFinds) {
     vary(run, scene(), one_origin, random);
     make_gaps(run, random);
     expect_same(run, any_count(random),
-                {one_origin ? BatchShape::common_origin : BatchShape::parallel, BatchShape::coherent});
+                {tile_shape(one_origin), scattered_shape(one_origin), BatchShape::coherent});
   }
   expect_hits(0.02);
 }
@@ -95,7 +107,7 @@ TEST_P(BatchTraversal, AcrossEdgesFindsWhatBruteForceFinds) {
     const RayRun first = to_patch(), second = to_patch(), third = to_patch();
     RayRun run = across_edges(first, second, third, random);
     vary(run, scene(), one_origin, random);
-    expect_same(run, any_count(random), {one_origin ? BatchShape::common_origin : BatchShape::parallel});
+    expect_same(run, any_count(random), {tile_shape(one_origin), scattered_shape(one_origin)});
   }
   expect_hits(0.02);
 }
@@ -123,7 +135,7 @@ TEST_P(BatchTraversal, UpToSurfacesFindsWhatBruteForceFinds) {
       else
         ray.origin += t * ray.direction;
     }
-    expect_same(run, batch_size, {one_origin ? BatchShape::common_origin : BatchShape::parallel});
+    expect_same(run, batch_size, {tile_shape(one_origin), scattered_shape(one_origin)});
   }
   expect_hits(0.02);
 }

@@ -42,10 +42,13 @@ protected:
 
   // skip: rays whose answers are nobody's promise.
   void expect_same(const RayRun& run, const std::vector<bool>& skip, BatchShape shape) {
+    const BatchShape scattered = shape == BatchShape::common_origin ? BatchShape::scattered_origin
+                                 : shape == BatchShape::parallel    ? BatchShape::scattered_parallel
+                                                                    : shape;
     const std::vector<Hit> expected = answers_of(bvh_, run);
     for (const Hit& hit : expected) hits_ += hit.found() ? 1U : 0U;
     for (const Isa isa : simd_isas())
-      for (const BatchShape traced_as : {shape, BatchShape::coherent, BatchShape::any}) {
+      for (const BatchShape traced_as : {shape, scattered, BatchShape::coherent, BatchShape::any}) {
         const KernelTable& kernels = kernels_of(isa);
         const std::vector<Hit> closest = query_.closest(kernels, tracer_.parts().view, run, traced_as);
         const std::vector<bool> any = query_.any(kernels, tracer_.parts().view, run, traced_as);

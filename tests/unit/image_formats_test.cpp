@@ -107,6 +107,24 @@ TEST(EncodeImage, GivesTheSameBytesEveryTime) {
         << image_extensions()[i];
 }
 
+TEST(EncodeImage, OfCodesGivesTheBytesOfTheLinearPicture) {
+  const TestPicture picture = ball_picture(150, 300);
+  Bytes codes(picture.rgb.size());
+  to_srgb8(picture.rgb.data(), codes.size(), codes.data());
+  int count = 0;
+  for (const std::string& format : image_extensions()) {
+    if (!is_8bit_format(format)) {
+      EXPECT_THROW(encode_image(format, codes, 150, 300), UsageError) << format;
+      continue;
+    }
+    ++count;
+    EXPECT_TRUE(encode_image(format, codes, 150, 300, 2) == encode_image(format, picture.rgb, 150, 300, 1))
+        << format;
+  }
+  EXPECT_EQ(count, 6);
+  EXPECT_FALSE(is_8bit_format("bmp"));
+}
+
 TEST(EncodeImage, NamesItsFormats) {
   EXPECT_EQ(image_extensions(),
             (std::vector<std::string>{"png", "ppm", "pfm", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"}));
@@ -119,6 +137,9 @@ TEST(EncodeImage, RefusesWhatMakesNoSense) {
   EXPECT_THROW(encode_image("png", rgb, 3, 2), UsageError);
   EXPECT_THROW(encode_image("png", rgb, 0, 2), UsageError);
   EXPECT_THROW(encode_image("png", rgb, -2, -2), UsageError);
+  const Bytes codes(12);
+  EXPECT_THROW(encode_image("bmp", codes, 2, 2), UsageError);
+  EXPECT_THROW(encode_image("png", codes, 3, 2), UsageError);
 }
 
 TEST(EncodeImage, RefusesWhatAFormatCannotHold) {
