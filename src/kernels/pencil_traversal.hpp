@@ -69,9 +69,7 @@ static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBat
   }
   if (count < least_pencil) return false;
   bound_groups(tile.points, errors, view);
-  for (int g = 0; g < batch_groups; ++g) {
-    view.groups.far[g] = group_far(hits, view.groups, tile.open[g], g);
-  }
+  find_far(hits, tile.open, view.groups);
   aim_view(view);
   if (!sees_little(scene, view, most_in_pencil, __builtin_inff())) return false;
   for (int g = 0; g < batch_groups; ++g) live.bits[g] &= ~tile.open[g];

@@ -87,8 +87,8 @@ FASTRT_INLINE std::uint32_t rays_inside_edges(const TilePoints& points, const Ed
   const PacketF zero(0.0F);
   std::uint32_t bits = 0;
   for (int k = 0; k < group_size; k += widest) {
-    const PacketF x = PacketF::load_aligned(points.x + g * group_size + k),
-                  y = PacketF::load_aligned(points.y + g * group_size + k);
+    const PacketF x = in_register(PacketF::load_aligned(points.x + g * group_size + k)),
+                  y = in_register(PacketF::load_aligned(points.y + g * group_size + k));
     const auto inside = [&](int e) {
       return cull_mul_add(PacketF(lines.a[e][i]), x,
                           cull_mul_add(PacketF(lines.b[e][i]), y, PacketF(lines.c[e][i]))) >= zero;

@@ -216,4 +216,30 @@ FASTRT_INLINE float group_far(const HitBatch& hits, const TileGroups& groups, st
   return (begin + way) + (magnitude(begin) + way) * depth_slack;
 }
 
+// The same of all groups at once. open: a word for each.
+FASTRT_INLINE void find_far(const HitBatch& hits, const std::uint32_t* open, TileGroups& groups) {
+  const PacketF zero(0.0F), nowhere(-__builtin_inff());
+  const auto minus_most = [&](int g) {
+    PacketF least = zero;
+    for (int k = 0; k < group_size; k += widest) {
+      const PacketF t = PacketF::load_aligned(hits.t + g * group_size + k);
+      least = min(least, select(from_bits<widest>(open[g] >> k & register_bits), negate(t), zero));
+    }
+    return least;
+  };
+  alignas(64) float most[batch_groups];
+  std::uint32_t used = 0;
+  for (int g = 0; g < batch_groups; g += 4) {
+    negate(min_of_rows(minus_most(g), minus_most(g + 1), minus_most(g + 2), minus_most(g + 3)))
+        .store_aligned(most + g);
+    for (int k = g; k < g + 4; ++k) used |= static_cast<std::uint32_t>(open[k] != 0) << k;
+  }
+  for (int g = 0; g < batch_groups; g += widest) {
+    const PacketF begin = PacketF::load_aligned(groups.depth_offset + g),
+                  way = PacketF::load_aligned(most + g) * PacketF::load_aligned(groups.depth_scale + g);
+    const PacketF far = (begin + way) + (abs(begin) + way) * PacketF(depth_slack);
+    select(from_bits<widest>(used >> g & register_bits), far, nowhere).store_aligned(groups.far + g);
+  }
+}
+
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

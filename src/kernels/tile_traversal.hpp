@@ -86,8 +86,7 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
 // Sees to how far the groups of a tile that has been projected look.
 template <bool any, class View>
 FASTRT_INLINE void aim_tile(TileTraversal<any, View>& tile) {
-  for (int g = 0; g < batch_groups; ++g)
-    tile.view.groups.far[g] = group_far(tile.hits, tile.view.groups, tile.open[g], g);
+  find_far(tile.hits, tile.open, tile.view.groups);
   aim_view(tile.view);
 }
 

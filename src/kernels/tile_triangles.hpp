@@ -61,11 +61,10 @@ FASTRT_INLINE std::uint32_t touch_triangles(const View& view, const TriangleRun&
   return some;
 }
 
-// A triangle of a run and the rays of a group that its edges let through.
-struct MetPair {
-  std::int32_t triangle, group;
-  std::uint32_t rays;
-};
+// A triangle of a run and the rays of a group that its edges let through, in one word: the rays below, the
+// group's number and the triangle's above.
+using MetPair = std::uint32_t;
+static_assert(batch_groups == 16 && group_size == 16 && widest <= 16);
 
 // What the edges of a run's triangles let through of the groups that they touch: act(triangle, group, rays).
 // First all triangles against their groups' corners, then all pairs against the rays, then what is left:
@@ -93,12 +92,13 @@ FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const Tri
       const int bit = __builtin_ctzll(left), i = first + bit / batch_groups, g = bit % batch_groups;
       const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
                                  ~rays_that_exclude(tile.rays, g * group_size, ids[i]);
-      met[count] = {i, g, rays};
+      met[count] = static_cast<std::uint32_t>(first * batch_groups + bit) << group_size | rays;
       count += rays != 0 ? 1 : 0;
     }
   for (int k = 0; k < count; ++k) {
-    const std::uint32_t rays = any ? met[k].rays & tile.open[met[k].group] : met[k].rays;
-    if (rays != 0) act(met[k].triangle, met[k].group, rays);
+    const int triangle = static_cast<int>(met[k] >> 20U), group = static_cast<int>(met[k] >> 16U & 15U);
+    const std::uint32_t all = met[k] & 0xFFFFU, rays = any ? all & tile.open[group] : all;
+    if (rays != 0) act(triangle, group, rays);
   }
 }
 

@@ -274,4 +274,16 @@ struct BatchOps {
   }
 };
 
+// The same value, in a register: compilers would rather read what they have loaded again, at each use, and in
+// some loops loads are what runs out first.
+template <class F>
+FASTRT_INLINE F in_register(F value) {
+#if defined(__AVX512DQ__)
+  asm("" : "+v"(value.data));
+#else
+  asm("" : "+x"(value.data));
+#endif
+  return value;
+}
+
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
