@@ -14,21 +14,33 @@ namespace {
 
 constexpr int width = 1024, height = 768;
 
-// The scene with lights, and with mirrors if wanted.
-Scene lit_scene(const std::string& name, bool mirrors, Camera& camera) {
+// What the scene's first material is: as it is, half a mirror, or glass. Glass scatters rays all over the
+// scene, and shadow rays go through it.
+enum class Surface { plain, mirror, glass };
+constexpr const char* suffixes[] = {"/", " of mirrors/", " of glass/"};
+
+// The scene with lights.
+Scene lit_scene(const std::string& name, Surface surface, Camera& camera) {
   SceneDesc desc = generated_scene(name);
   const Aabb bounds = bounds_of(desc);
   camera = frame_scene(bounds, 40.0F, static_cast<float>(width) / height);
   add_default_lights(desc, bounds, camera);
-  if (mirrors) desc.materials[0].mirror = Vec3(0.5F);
+  Material& material = desc.materials[0];
+  if (surface == Surface::mirror) material.mirror = Vec3(0.5F);
+  if (surface == Surface::glass) {
+    material.opacity = 0.1F;
+    material.ior = 1.5F;
+    material.mirror = Vec3(1.0F);
+    material.fresnel = Fresnel::dielectric;
+  }
   return Scene(std::move(desc));
 }
 
-void render_frame(benchmark::State& state, const std::string& name, Isa isa, bool mirrors, int threads) {
+void render_frame(benchmark::State& state, const std::string& name, Isa isa, Surface surface, int threads) {
   Camera camera;
   TracerSettings tracer_settings;
   tracer_settings.isa = isa;
-  const Tracer tracer(lit_scene(name, mirrors, camera), tracer_settings);
+  const Tracer tracer(lit_scene(name, surface, camera), tracer_settings);
   RenderSettings settings;
   settings.width = width;
   settings.height = height;
@@ -43,14 +55,14 @@ void render_frame(benchmark::State& state, const std::string& name, Isa isa, boo
 
 void register_frames() {
   for (const std::string& scene : generated_scene_names())
-    for (const bool mirrors : {false, true})
+    for (const Surface surface : {Surface::plain, Surface::mirror, Surface::glass})
       for (const Isa isa : available_isas())
         for (const int threads : {1, 2}) {
-          const std::string name = "frame/" + scene + (mirrors ? " of mirrors/" : "/") + isa_name(isa) +
+          const std::string name = "frame/" + scene + suffixes[static_cast<int>(surface)] + isa_name(isa) +
                                    "/threads:" + std::to_string(threads);
           benchmark::RegisterBenchmark(
               name.c_str(),
-              [=](benchmark::State& state) { render_frame(state, scene, isa, mirrors, threads); })
+              [=](benchmark::State& state) { render_frame(state, scene, isa, surface, threads); })
               ->UseRealTime()
               ->Unit(benchmark::kMillisecond);
         }
