@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <sstream>
 
@@ -20,35 +21,61 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-pid_t start(const std::vector<std::string>& command) {
-  std::vector<char*> arguments;
-  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
+// Its output goes to the file, or nowhere.
+pid_t start(const char* program, char** arguments, int output) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  if (output < 0)
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  else
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t pid = 0;
-  const int error = posix_spawn(&pid, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawn(&pid, program, &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw Error("cannot start " + command[0]);
-  return pid;
+  return error == 0 ? pid : -1;
+}
+
+// All that comes out of a pipe until its other end is closed.
+std::string read_all(int file) {
+  std::string text;
+  char buffer[256];
+  for (ssize_t count = 0; (count = read(file, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(count));
+  return text;
 }
 
 } // namespace
 
-ProcessResult run_process(const std::vector<std::string>& command) {
+int measure_process(char** command) {
   const auto begin = std::chrono::steady_clock::now();
-  const pid_t pid = start(command);
+  const pid_t pid = start(command[0], command, -1);
   int status = 0;
   rusage usage{};
-  if (wait4(pid, &status, 0, &usage) != pid) throw Error("lost " + command[0]);
+  if (pid < 0 || wait4(pid, &status, 0, &usage) != pid) return 1;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::printf("%.9f %.6f %ld %d\n", seconds, seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime),
+              usage.ru_maxrss, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+  return 0;
+}
+
+ProcessResult run_process(const std::vector<std::string>& command) {
+  std::string self = "/proc/self/exe", option = measure_option;
+  std::vector<char*> arguments{self.data(), option.data()};
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw Error("cannot make a pipe");
+  const pid_t pid = start(self.c_str(), arguments.data(), ends[1]);
+  close(ends[1]);
+  std::istringstream line(pid < 0 ? std::string() : read_all(ends[0]));
+  close(ends[0]);
+  if (pid > 0) waitpid(pid, nullptr, 0);
   ProcessResult result;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-  result.peak_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (!(line >> result.seconds >> result.cpu_seconds >> result.peak_bytes >> result.exit_code))
+    throw Error("cannot start " + command[0]);
+  result.peak_bytes *= 1024;
   return result;
 }
 

@@ -221,5 +221,7 @@ int run(int count, char** arguments) {
 } // namespace fastrt::bench
 
 int main(int count, char** arguments) {
+  if (count > 2 && std::string(arguments[1]) == fastrt::bench::measure_option)
+    return fastrt::bench::measure_process(arguments + 2);
   return fastrt::bench::guarded_main("fastrt_runs", fastrt::bench::run, count, arguments);
 }
