@@ -55,22 +55,24 @@ int choose_threads(const Options& options) {
   return threads;
 }
 
-// What must be compared, or becomes a file of linear values, is kept as it is.
-PixelFormat choose_pixel_format(const Options& options, const fs::path& output) {
+// Codes alone, unless more is asked of a pixel: to be compared, or written as linear values, or to go on
+// with; or it is made one by one (`scalar`).
+PixelFormat choose_pixel_format(const Options& options, const fs::path& output, Isa isa) {
   const bool is_8bit = output.empty() || is_8bit_format(format_of(output));
-  return is_8bit && !options.verify ? PixelFormat::srgb8 : PixelFormat::linear;
+  const bool needs_more = options.verify || options.adaptive > 0 || !aovs_to_render(options).empty() ||
+                          options.integrator == Integrator::forward || isa == Isa::scalar;
+  return is_8bit && !needs_more ? PixelFormat::srgb8 : PixelFormat::linear;
 }
 
 // What rendering keeps of a pixel: its codes; or its colour and primitive id, AOVs, and twice all of it if
 // there are two renderings.
 std::uint64_t bytes_per_pixel(const Options& options, PixelFormat format) {
-  std::uint64_t values = 0;
-  for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
+  if (format == PixelFormat::srgb8) return 3;
+  std::uint64_t values = 4;
   if (options.adaptive > 0) values += 11;                     // sums, counts, what the eye sees
   if (options.integrator == Integrator::forward) values += 6; // sums of 64 bits
-  const std::uint64_t codes = format == PixelFormat::srgb8 ? 3 : 0;
-  if (values == 0 && codes != 0) return codes;
-  return (values + 4) * sizeof(float) * (options.verify ? 2 : 1) + codes;
+  for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
+  return values * sizeof(float) * (options.verify ? 2 : 1);
 }
 
 void check_image_size(const Options& options, PixelFormat format) {
@@ -221,8 +223,7 @@ int run(const Options& given, Clock::time_point start) {
   tracer_settings.culling = options.culling;
   tracer_settings.threads = stats.threads = choose_threads(options);
   const fs::path output = choose_output(options);
-  const PixelFormat pixel_format = choose_pixel_format(options, output);
-  check_image_size(options, pixel_format);
+  check_image_size(options, choose_pixel_format(options, output, tracer_settings.isa));
   const ExtraFiles extra_files = choose_extra_files(options, output);
 
   Clock::time_point phase_start = Clock::now();
@@ -230,6 +231,7 @@ int run(const Options& given, Clock::time_point start) {
   const Aabb bounds = bounds_of(desc);
   take_picture_settings(desc, options);
   for (const std::string& warning : sampling_warnings(options)) warn(options, warning);
+  const PixelFormat pixel_format = choose_pixel_format(options, output, tracer_settings.isa);
   check_image_size(options, pixel_format);
   check_crop(options);
   const Camera camera = choose_camera(options, bounds, desc);

@@ -99,11 +99,11 @@ struct GeometryView {
   const SphereBlock* spheres;
   const ShapeBlock* shape_blocks;
   ShapeView shapes;
-  std::uint32_t root;           // a child reference; no_child for an empty scene
-  float largest_coordinate;     // of any box in the tree
-  std::uint32_t culls;          // 0: the boxes are boundless, and every ray is to meet every primitive
-  std::uint32_t has_triangles;  // some leaf holds triangles
-  std::uint32_t only_triangles; // no leaf holds anything else
+  std::uint32_t root;            // a child reference; no_child for an empty scene
+  float largest_coordinate;      // of any box in the tree
+  std::uint32_t culls;           // 0: the boxes are boundless, and every ray is to meet every primitive
+  std::uint32_t has_triangles;   // some leaf holds triangles
+  std::uint32_t only_triangles;  // no leaf holds anything else
   std::uint32_t primitive_count; // in leaves; whole blocks are counted
 };
 
