@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG files, read back by the system's zlib (which OpenImageIO brings) and a plain unfilter.
+#include "src/film/srgb.hpp"
 #include "src/write/checksum.hpp"
 #include "src/write/deflate.hpp"
 #include "src/write/huffman.hpp"
-#include "src/film/srgb.hpp"
 #include "tests/unit/image_pictures.hpp"
 
 #include <fastrt/error.hpp>
