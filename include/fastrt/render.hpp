@@ -21,8 +21,8 @@ namespace fastrt {
 enum class Integrator { whitted, forward };
 
 // What a frame keeps of a pixel. linear: its colour and its primitive, 16 bytes. srgb8: the 8-bit codes of
-// the colour, as png, ppm, jpg and tif hold them: 3 bytes, and never more where neither AOVs nor adaptive
-// samples are asked for (the whitted integrator's kernels then write codes tile by tile).
+// the colour, as png, ppm, jpg and tif hold them: 3 bytes. The linear values are then never kept, but for
+// AOVs, adaptive samples, the forward integrator and Isa::scalar: those make a linear frame first.
 enum class PixelFormat { linear, srgb8 };
 
 // Columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of a picture.

@@ -28,7 +28,7 @@ void write_image(const std::filesystem::path& path, std::span<const float> rgb, 
 std::vector<unsigned char> encode_image(const std::string& format, std::span<const float> rgb, int width,
                                         int height, int threads = 0);
 
-// Whether a format holds 8-bit sRGB codes (png ppm jpg jpeg tif tiff).
+// Whether a format holds 8-bit sRGB codes (png ppm jpg jpeg tif tiff); false for any other word.
 bool is_8bit_format(const std::string& format);
 
 // Of such a format, from the codes themselves (Frame::srgb8): the same bytes as from the linear values that

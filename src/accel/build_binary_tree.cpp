@@ -15,7 +15,6 @@
 namespace fastrt {
 namespace {
 
-constexpr std::size_t serial_range = std::size_t{1} << 12U; // ranges up to this size are one task
 constexpr std::size_t min_chunk = std::size_t{1} << 12U;
 constexpr std::size_t max_chunks = 64;
 constexpr unsigned count_bits = 16; // of a leaf's primitives; its group goes above them for a while
@@ -113,7 +112,7 @@ private:
   void build(TopNode& top) {
     Bins bins;
     for (const Chunk& chunk : top.chunks) bins.add(chunk.bins);
-    if (top.range.size() <= serial_range) {
+    if (top.range.size() <= serial_build_range) {
       top.chunks = {};
       NodeList& list = lists_[static_cast<std::size_t>(omp_get_thread_num())];
       list.clear();

@@ -39,6 +39,9 @@ struct BinaryTree {
   Column<std::uint8_t> group_of_leaf; // per node: the leaf's group; 0 for inner nodes
 };
 
+// Up to so many primitives the builder leaves to one thread.
+inline constexpr std::size_t serial_build_range = std::size_t{1} << 12U;
+
 struct BuildSettings {
   int threads = 0;  // 0 takes every core. The tree is the same for any number.
   int run_size = 8; // primitives that are met at once, 4 or 8: what the tree's cost counts

@@ -38,7 +38,7 @@ struct LightBits {
 }
 
 // Point `index` of `count` of a Hammersley set, so that every row and column of a count-fold grid holds one.
-[[gnu::always_inline]] static inline LightBits light_point(std::uint32_t index, std::uint32_t count) {
+[[gnu::always_inline]] static inline LightBits hammersley_point(std::uint32_t index, std::uint32_t count) {
   const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
   return {stratum, reverse_bits(index)};
 }
@@ -49,7 +49,7 @@ struct LightBits {
 }
 [[gnu::always_inline]] static inline LightBits light_bits(const LightQuestion& question, std::uint32_t index,
                                                           std::uint32_t count) {
-  return shifted(light_point(index, count), light_key(question));
+  return shifted(hammersley_point(index, count), light_key(question));
 }
 
 // The place of a sample on a light of a shape that is not a mesh. (No branches but on the shape.)
@@ -73,8 +73,8 @@ struct MeshPlace {
 };
 
 // The place of a sample on `triangles` triangles, of which number i is chosen by the numbers from begin[i] up
-// to begin[i + 1]. What is left of the number that chose the triangle is spread out again and
-// says where in it, so that strata of the mesh are strata of each triangle.
+// to begin[i + 1]. What is left of the number that chose the triangle is spread out again and says where in
+// it, so that strata of the mesh are strata of each triangle.
 [[gnu::always_inline]] static inline MeshPlace mesh_place(const std::uint32_t* begin, std::uint32_t triangles,
                                                           const LightBits& bits) {
   std::uint32_t chosen = 0;

@@ -15,7 +15,7 @@ inline constexpr float most_in_tile = 3.0F, most_in_pencil = 16.0F;
 // The area of all directions together, as far as a plane may stand for them.
 inline constexpr float all_directions = 12.6F;
 
-// The area of that part. (Unused children of the root have inverted boxes.)
+// The area of the part of the plane that the scene covers. (Unused children of the root have inverted boxes.)
 template <class View>
 FASTRT_INLINE float scene_area(const GeometryView& scene, const View& view) {
   using N = Floats<node_lanes>;
@@ -36,7 +36,8 @@ FASTRT_INLINE float scene_area(const GeometryView& scene, const View& view) {
   return (reduce_min(x0) + reduce_min(minus_x1)) * (reduce_min(y0) + reduce_min(minus_y1));
 }
 
-// most: primitives for a group; most_area: what the scene cannot be larger than.
+// Whether a view's groups look at no more than `most` primitives each, on average, if these lie evenly about
+// the scene. most_area: what the scene cannot be larger than.
 template <class View>
 FASTRT_INLINE bool sees_little(const GeometryView& scene, const View& view, float most, float most_area) {
   if (is_leaf(scene.root)) return true;

@@ -204,6 +204,12 @@ FASTRT_INLINE Projection project_batch(const GeometryView& scene, const RayBatch
   return Projection::done;
 }
 
+// The depth, with slack, at which a way ends that begins at depth `begin`; size: |begin|.
+template <class F>
+FASTRT_INLINE F end_of_way(const F& begin, const F& size, const F& way) {
+  return (begin + way) + (size + way) * F(depth_slack);
+}
+
 // The farthest depth at which a hit of group g still matters. open: its rays that look for one.
 FASTRT_INLINE float group_far(const HitBatch& hits, const TileGroups& groups, std::uint32_t open, int g) {
   if (open == 0) return -__builtin_inff();
@@ -213,7 +219,7 @@ FASTRT_INLINE float group_far(const HitBatch& hits, const TileGroups& groups, st
     most = max(most, select(from_bits<widest>(open >> k & register_bits), t, PacketF(0.0F)));
   }
   const float begin = groups.depth_offset[g], way = reduce_max(most) * groups.depth_scale[g];
-  return (begin + way) + (magnitude(begin) + way) * depth_slack;
+  return end_of_way(begin, magnitude(begin), way);
 }
 
 // The same of all groups at once. open: a word for each.
@@ -237,7 +243,7 @@ FASTRT_INLINE void find_far(const HitBatch& hits, const std::uint32_t* open, Til
   for (int g = 0; g < batch_groups; g += widest) {
     const PacketF begin = PacketF::load_aligned(groups.depth_offset + g),
                   way = PacketF::load_aligned(most + g) * PacketF::load_aligned(groups.depth_scale + g);
-    const PacketF far = (begin + way) + (abs(begin) + way) * PacketF(depth_slack);
+    const PacketF far = end_of_way(begin, abs(begin), way);
     select(from_bits<widest>(used >> g & register_bits), far, nowhere).store_aligned(groups.far + g);
   }
 }

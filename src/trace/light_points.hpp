@@ -32,8 +32,8 @@ FASTRT_INLINE LightQuestion question_of(const TileJob& job, const PathBatch& ray
 }
 
 // What shifts the samples of light k, ray by ray: the same for all of them.
-static void key_light(const TileJob& job, const PathBatch& rays, std::uint32_t k, const TileScratch& scratch,
-                      LightBatch& out) noexcept {
+static void find_light_keys(const TileJob& job, const PathBatch& rays, std::uint32_t k,
+                            const TileScratch& scratch, LightBatch& out) noexcept {
   for (int i = 0; i < rays.count; ++i) {
     const LightBits key = light_key(question_of(job, rays, k, i, scratch));
     out.key_u[i] = key.u;
@@ -75,9 +75,10 @@ static void place_on_mesh(const LightRow& light, const LightBits& point, int cou
   }
 }
 
-// The points of a light with a size that sample `index` of `count` asks, after key_light().
+// The points of a light with a size that sample `index` of `count` asks, after find_light_keys().
 static void place_light(const LightRow& light, int index, int count, int rays, LightBatch& out) noexcept {
-  const LightBits point = light_point(static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count));
+  const LightBits point =
+      hammersley_point(static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count));
   switch (static_cast<LightShape>(light.shape)) {
   case LightShape::mesh:
     return place_on_mesh(light, point, rays, out);

@@ -254,7 +254,7 @@ static std::uint64_t gather_light(const TileJob& job, const PathBatch& rays, Til
       continue;
     }
     const float share = 1.0F / static_cast<float>(job.light_samples);
-    key_light(job, rays, k, scratch, scratch.light);
+    find_light_keys(job, rays, k, scratch, scratch.light);
     for (int index = 0; index < job.light_samples; ++index) {
       place_light(job.scene->shading.lights[k], index, job.light_samples, rays.count, scratch.light);
       shadow_rays += gather_one_light(job, rays, k, share, scratch);

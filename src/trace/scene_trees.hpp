@@ -15,7 +15,7 @@ namespace fastrt {
 
 // Trees of fewer primitives are built by one thread: the builder would give no other thread anything to do,
 // and beside other programs a team waits for its last thread's turn, ten milliseconds and more.
-inline constexpr std::size_t parallel_build_from = 4097;
+inline constexpr std::size_t parallel_build_from = serial_build_range + 1;
 
 struct PrototypeTree {
   std::uint32_t root;       // among the nodes of all; no_child of an empty prototype
