@@ -11,8 +11,13 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 // Rays under way at a time, and how many of them meet their nodes, or their leaves, in one go: so many that
 // one of the lines is always long enough.
+#if defined(__AVX512DQ__)
+inline constexpr int lone_rays_at_once = 32;
+inline constexpr std::uint32_t lone_nodes_at_once = 12, lone_leaves_at_once = 12;
+#else
 inline constexpr int lone_rays_at_once = 24;
 inline constexpr std::uint32_t lone_nodes_at_once = 8, lone_leaves_at_once = 8;
+#endif
 
 // Under what waits lie entries that are no children, for the end: as many as are looked at together.
 struct LoneSlot {
@@ -28,22 +33,15 @@ struct LoneSlot {
 
 enum LonePlace : std::uint32_t { at_node, at_leaf, at_end, lone_places };
 
-// Whether what a ray meets at a leaf is asked for when it stands in line. It pays where caches are small:
-// with AVX-512 (2 MB of second level) it was measured to cost 5 to 10 %.
-#if defined(__AVX512DQ__)
-inline constexpr bool leaves_ahead = false;
-#else
-inline constexpr bool leaves_ahead = true;
-#endif
-// Lines of the cache that a node takes, and two blocks.
-inline constexpr std::uintptr_t lines_ahead = leaves_ahead ? 5 : 4;
+// Lines of the cache that a node takes, and most of two blocks. To ask for more of these was not worth it.
+inline constexpr std::uintptr_t lines_ahead = 4;
 
 class LoneLines {
 public:
   explicit LoneLines(const GeometryView& scene) {
     for (Part& part : parts_) part = {reinterpret_cast<std::uintptr_t>(scene.nodes), 0};
     parts_[at_node].size = sizeof(WideNode);
-    if (leaves_ahead && scene.triangles != nullptr)
+    if (scene.triangles != nullptr)
       parts_[at_leaf] = {reinterpret_cast<std::uintptr_t>(scene.triangles), sizeof(TriangleBlock)};
   }
   LoneLines(const LoneLines&) = delete;

@@ -66,8 +66,9 @@ FASTRT_INLINE void find_met(const WideNode&, const Meet& meet, MetBoxes& boxes) 
   const BoxLanes lanes = meet(0);
   const __m256i distance = _mm256_and_si256(_mm256_castps_si256(lanes.near.data), _mm256_set1_epi32(~7));
   const __m256i keys = _mm256_or_si256(distance, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-  boxes.keys = _mm256_and_si256(keys, _mm256_castps_si256(lanes.met.data));
-  boxes.met = to_bits(lanes.met);
+  const Mask<node_lanes> met = lanes.near <= lanes.far;
+  boxes.keys = _mm256_and_si256(keys, _mm256_castps_si256(met.data));
+  boxes.met = to_bits(met);
 }
 
 FASTRT_INLINE Waiting* push_in_order(const WideNode& node, const MetBoxes& boxes, Waiting* top) {

@@ -29,36 +29,44 @@ FASTRT_INLINE __m512i sort_lanes(__m512i w) {
   return order_lanes(w, _mm512_shuffle_epi32(w, _MM_PERM_BADC), 0b10101010);
 }
 
-// All children as entries of the stack.
-FASTRT_INLINE __m512i entries_of(const WideNode& node, const Floats<8>& near) {
-  const __m256i child = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
-  const __m256i size = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.size));
-  constexpr int and_or = 0xEA; // (a & b) | c
-  const __m256i above = _mm256_ternarylogic_epi32(
-      _mm256_castps_si256(near.data), _mm256_set1_epi32(static_cast<int>(~size_bits)), size, and_or);
-  const __m512i in_turn = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-  return _mm512_permutex2var_epi32(_mm512_castsi256_si512(child), in_turn, _mm512_castsi256_si512(above));
-}
-
-// The entries of the boxes that were met, in no order, and how many they are.
+// Of the boxes that were met, in no order: their children, the upper halves of their entries, and how many
+// they are.
 struct MetBoxes {
-  __m512i entries;
+  __m256i children, above;
   int count;
 };
 
 template <class Meet>
 FASTRT_INLINE void find_met(const WideNode& node, const Meet& meet, MetBoxes& boxes) {
   const BoxLanes lanes = meet(0);
-  const std::uint32_t met = to_bits(lanes.met);
-  boxes.entries = _mm512_maskz_compress_epi64(static_cast<__mmask8>(met), entries_of(node, lanes.near));
+  const __mmask8 met = _mm256_cmp_ps_mask(lanes.near.data, lanes.far.data, _CMP_LE_OQ);
+  const __m256i child = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
+  const __m256i size = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.size));
+  constexpr int and_or = 0xEA; // (a & b) | c
+  const __m256i above = _mm256_ternarylogic_epi32(
+      _mm256_castps_si256(lanes.near.data), _mm256_set1_epi32(static_cast<int>(~size_bits)), size, and_or);
+  boxes.children = _mm256_maskz_compress_epi32(met, child);
+  boxes.above = _mm256_maskz_compress_epi32(met, above);
   boxes.count = __builtin_popcount(met);
+}
+
+// The first four entries, or all eight. (Seldom the latter: while registers of 512 bits are at work, some
+// cores do fewer operations at a time.)
+FASTRT_INLINE __m256i four_entries(const MetBoxes& boxes) {
+  const __m256i in_turn = _mm256_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11);
+  return _mm256_permutex2var_epi32(boxes.children, in_turn, boxes.above);
+}
+FASTRT_INLINE __m512i all_entries(const MetBoxes& boxes) {
+  const __m512i in_turn = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+  return _mm512_permutex2var_epi32(_mm512_castsi256_si512(boxes.children), in_turn,
+                                   _mm512_castsi256_si512(boxes.above));
 }
 
 FASTRT_INLINE Waiting* push_in_order(const WideNode&, const MetBoxes& boxes, Waiting* top) {
   if (__builtin_expect(boxes.count <= 4, 1))
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(top), sort_lanes(_mm512_castsi512_si256(boxes.entries)));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(top), sort_lanes(four_entries(boxes)));
   else
-    _mm512_storeu_si512(top, sort_lanes(boxes.entries));
+    _mm512_storeu_si512(top, sort_lanes(all_entries(boxes)));
   return top + boxes.count;
 }
 

@@ -19,7 +19,7 @@ FASTRT_INLINE void find_met(const WideNode&, const Meet& meet, MetBoxes& boxes) 
   for (int half = 0; half < wide_children; half += node_lanes) {
     const BoxLanes lanes = meet(half);
     lanes.near.store_aligned(boxes.near + half);
-    boxes.met |= to_bits(lanes.met) << half;
+    boxes.met |= to_bits(lanes.near <= lanes.far) << half;
   }
 }
 

@@ -39,7 +39,7 @@ FASTRT_INLINE LoneRay lone_ray(const RayBatch& rays, const HitBatch& hits, int i
   return ray;
 }
 
-// Which of the node's boxes the ray meets, and where: in half a node where registers hold four.
+// Where the ray is in the node's boxes: in half of them where registers hold four.
 FASTRT_INLINE BoxLanes meet_boxes(const LoneRay& ray, const WideNode& node, int half) {
   using N = Floats<node_lanes>;
   const LoneNumbers& own = ray.own;
@@ -55,7 +55,7 @@ FASTRT_INLINE BoxLanes meet_boxes(const LoneRay& ray, const WideNode& node, int 
   // The running value goes second: max and min return that one where the other is NaN.
   const N first = max(entry(0), max(entry(1), max(entry(2), N(ray.t_min))));
   const N last = min(exit(0), min(exit(1), min(exit(2), N(ray.bound))));
-  return {first, first <= last};
+  return {first, last};
 }
 
 // The triangles that lie around the ray, as seen along it. Only culls; what is left goes through the exact

@@ -45,10 +45,9 @@ FASTRT_INLINE std::uint32_t bits_within(const Waiting* entries, Waiting limit) {
 // Children of a node are met all at once where eight lanes exist, else in two halves.
 inline constexpr int node_lanes = widest < wide_children ? widest : wide_children;
 
-// Which boxes a ray meets, and where.
+// Between where a ray is in boxes; it meets those where near <= far.
 struct BoxLanes {
-  Floats<node_lanes> near;
-  Mask<node_lanes> met;
+  Floats<node_lanes> near, far;
 };
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
