@@ -39,10 +39,11 @@ inline constexpr std::uintptr_t lines_ahead = 4;
 class LoneLines {
 public:
   explicit LoneLines(const GeometryView& scene) {
-    for (Part& part : parts_) part = {reinterpret_cast<std::uintptr_t>(scene.nodes), 0};
-    parts_[at_node].size = sizeof(WideNode);
-    if (scene.triangles != nullptr)
-      parts_[at_leaf] = {reinterpret_cast<std::uintptr_t>(scene.triangles), sizeof(TriangleBlock)};
+    for (Part& part : parts_) part = part_of(scene.nodes, 0);
+    parts_[0] = part_of(scene.nodes, sizeof(WideNode));
+    parts_[first_leaves + triangle_group] = part_of(scene.triangles, sizeof(TriangleBlock));
+    parts_[first_leaves + sphere_group] = part_of(scene.spheres, sizeof(SphereBlock));
+    parts_[first_leaves + shape_group] = part_of(scene.shape_blocks, sizeof(ShapeBlock));
   }
   LoneLines(const LoneLines&) = delete;
   LoneLines& operator=(const LoneLines&) = delete;
@@ -54,7 +55,7 @@ public:
   // written to all lines, but only that one grows.
   [[gnu::always_inline]] inline void add(LoneSlot& slot, std::uint64_t child) {
     const std::uint64_t not_node = child >> 31U, end = (child + 1U) >> 32U;
-    const Part& part = parts_[not_node + end];
+    const Part& part = parts_[child >> 28U];
     const std::uintptr_t memory = part.first + (child & (max_blocks - 1)) * part.size;
     for (std::uintptr_t i = 0; i < lines_ahead; ++i)
       __builtin_prefetch(reinterpret_cast<const void*>(memory + 64 * i));
@@ -75,10 +76,15 @@ private:
   static constexpr int size = 3 * lone_rays_at_once;
   static_assert(lone_nodes_at_once + lone_leaves_at_once <= lone_rays_at_once);
 
-  // Where things lie that rays meet in a place, one after the other.
+  // Where what children refer to lies, one after the other, by their highest four bits: nodes, and from
+  // `first_leaves` on the blocks of each group of leaves.
   struct Part {
     std::uintptr_t first, size;
   };
+  static constexpr std::uint32_t first_leaves = 8, parts = 16;
+  static Part part_of(const void* first, std::uintptr_t size) {
+    return {reinterpret_cast<std::uintptr_t>(first), size};
+  }
 
   // To the front of the memory, so that there is room behind for all.
   [[gnu::always_inline]] inline void move_up(LonePlace place) {
@@ -88,7 +94,7 @@ private:
     tail_[place] = to;
   }
 
-  Part parts_[lone_places];
+  Part parts_[parts];
   LoneSlot* slots_[lone_places][size + 1];
   LoneSlot** head_[lone_places] = {slots_[at_node], slots_[at_leaf], slots_[at_end]};
   LoneSlot** tail_[lone_places] = {slots_[at_node], slots_[at_leaf], slots_[at_end]};
