@@ -106,14 +106,34 @@ template <bool any>
 
 // With fewer rays than this of one origin or direction, whether they are scattered is not worth finding out.
 inline constexpr int least_dense_tile = 96;
+// With fewer than this that look for the closest hit, each goes alone.
+inline constexpr int least_scattered = 64;
+
+[[gnu::noinline]] static void find_closest_alone(const GeometryView& scene, const RayBatch& rays,
+                                                 HitBatch& hits) noexcept {
+  LoneColumns columns;
+  columns.ready = 0;
+  trace_rays_alone<false>(scene, rays, hits, columns);
+}
+
+// Rays that may be scattered: as a tile if there are many and they are not, alone if they are few. Returns
+// whether they have been traced.
+template <bool any>
+FASTRT_INLINE bool trace_scattered(const GeometryView& scene, const RayBatch& rays, int count,
+                                   HitBatch& hits) {
+  if (count >= least_dense_tile) return trace_dense_tile<any>(scene, rays, hits);
+  if (any || count >= least_scattered || scene.few_shapes == 0) return false;
+  find_closest_alone(scene, rays, hits);
+  return true;
+}
 
 // Rays that are neighbours: what lies in pencils as these, all others in beams and packets.
 template <bool any>
 static void trace_coherent(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   const bool culls = scene.culls != 0 && scene.root != no_child;
   RayBits looking = looking_rays(rays);
-  if (rays.shape != BatchShape::coherent && culls && count_rays(looking) >= least_dense_tile &&
-      trace_dense_tile<any>(scene, rays, hits))
+  if (rays.shape != BatchShape::coherent && culls &&
+      trace_scattered<any>(scene, rays, count_rays(looking), hits))
     return;
   const bool pencils = !any && culls;
   if ((pencils && trace_pencils(scene, rays, looking, hits)) || has_gaps(looking))

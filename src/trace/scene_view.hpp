@@ -104,6 +104,7 @@ struct GeometryView {
   std::uint32_t culls;           // 0: the boxes are boundless, and every ray is to meet every primitive
   std::uint32_t has_triangles;   // some leaf holds triangles
   std::uint32_t only_triangles;  // no leaf holds anything else
+  std::uint32_t few_shapes;      // hardly any leaf holds cones, disks, polygons or instances
   std::uint32_t primitive_count; // in leaves; whole blocks are counted
 };
 

@@ -31,9 +31,10 @@ void fill_geometry_view(Tracer::Parts& parts, const WideTree& tree, bool culling
   view.spheres = parts.sphere_blocks.data();
   view.has_triangles = parts.triangle_blocks.empty() ? 0 : 1;
   view.only_triangles = parts.sphere_blocks.empty() && parts.shape_blocks.empty() ? 1 : 0;
-  view.primitive_count = static_cast<std::uint32_t>(parts.triangle_blocks.size() +
-                                                    parts.sphere_blocks.size() + parts.shape_blocks.size()) *
-                         block_size;
+  const std::size_t blocks =
+      parts.triangle_blocks.size() + parts.sphere_blocks.size() + parts.shape_blocks.size();
+  view.few_shapes = parts.shape_blocks.size() * 16 <= blocks ? 1 : 0;
+  view.primitive_count = static_cast<std::uint32_t>(blocks) * block_size;
   view.shape_blocks = parts.shape_blocks.data();
   view.shapes = shape_view(parts.scene, parts.shapes);
   view.root = tree.root;
