@@ -48,7 +48,9 @@ public:
 private:
   void plan_levels(int width, int height, std::size_t given);
   template <class Store>
-  void make_levels(const Store& store);
+  void make_level(std::size_t i, const Store& store);
+  template <class Store>
+  void make_half_level(std::size_t i, const float* quarters, const Store& store);
 
   std::vector<Level> levels_;
   std::vector<std::uint8_t> bytes_;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace fastrt {
@@ -65,6 +66,40 @@ TEST(Image, CodesOfLevelsAreTheNearest) {
   EXPECT_EQ(image.bytes()[4 * 4], 188); // sRGB of 0.5
   EXPECT_EQ(image.bytes()[4 * 4 + 3], 255);
   EXPECT_FALSE(image.has_alpha());
+}
+
+// The nearest of 256 values; of two the greater one.
+int nearest_code(const float* values, float x) {
+  int best = 0;
+  for (int code = 1; code < 256; ++code)
+    if (std::abs(values[code] - x) <= std::abs(values[best] - x)) best = code;
+  return best;
+}
+
+// Of all codes, dark ones above all, which lie closest together on the sRGB curve.
+TEST(Image, CodesOfHalfLevelsAreTheNearestToTheirMeans) {
+  std::mt19937 random(7);
+  std::vector<std::uint8_t> rgba(4 * 128 * 64);
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    rgba[i] = static_cast<std::uint8_t>(random() % (i % 3 == 0 ? 256 : i % 3 == 1 ? 12 : 60));
+  for (const bool srgb : {true, false}) {
+    const Image image(128, 64, rgba, srgb);
+    for (std::size_t l = 1; l < image.levels().size() - 1; ++l) {
+      const Image::Level& level = image.levels()[l];
+      for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < level.width; ++x) {
+          const auto below = [&](int dx, int dy) { return image.pixel(l - 1, 2 * x + dx, 2 * y + dy); };
+          const glm::vec4 mean =
+              ((below(0, 0) * 0.25F + below(1, 0) * 0.25F) + below(0, 1) * 0.25F) + below(1, 1) * 0.25F;
+          for (int c = 0; c < 4; ++c) {
+            const std::size_t at = 4 * (level.first + static_cast<std::size_t>(y * level.width + x));
+            ASSERT_EQ(image.bytes()[at + static_cast<std::size_t>(c)],
+                      nearest_code(image.decoded().data() + (c == 3 ? 256 : 0), mean[c]))
+                << srgb << ' ' << l << ' ' << x << ' ' << y << ' ' << c;
+          }
+        }
+    }
+  }
 }
 
 TEST(Image, SizesAreChecked) {
