@@ -82,8 +82,8 @@ private:
     std::uintptr_t first, size;
   };
   static constexpr std::uint32_t first_leaves = 8, parts = 16;
-  static Part part_of(const void* first, std::uintptr_t size) {
-    return {reinterpret_cast<std::uintptr_t>(first), size};
+  static Part part_of(const void* first, std::uintptr_t each) {
+    return {reinterpret_cast<std::uintptr_t>(first), each};
   }
 
   // To the front of the memory, so that there is room behind for all.
