@@ -106,8 +106,8 @@ template <bool any>
 
 // With fewer rays than this of one origin or direction, whether they are scattered is not worth finding out.
 inline constexpr int least_dense_tile = 96;
-// With fewer than this that look for the closest hit, each goes alone.
-inline constexpr int least_scattered = 64;
+// With fewer than this that look for the closest hit, each goes alone where they may be scattered.
+inline constexpr int least_together = 64;
 
 [[gnu::noinline]] static void find_closest_alone(const GeometryView& scene, const RayBatch& rays,
                                                  HitBatch& hits) noexcept {
@@ -122,7 +122,7 @@ template <bool any>
 FASTRT_INLINE bool trace_scattered(const GeometryView& scene, const RayBatch& rays, int count,
                                    HitBatch& hits) {
   if (count >= least_dense_tile) return trace_dense_tile<any>(scene, rays, hits);
-  if (any || count >= least_scattered || scene.few_shapes == 0) return false;
+  if (any || count >= least_together || scene.few_shapes == 0) return false;
   find_closest_alone(scene, rays, hits);
   return true;
 }

@@ -36,14 +36,18 @@ enum LonePlace : std::uint32_t { at_node, at_leaf, at_end, lone_places };
 // Lines of the cache that a node takes, and most of two blocks. To ask for more of these was not worth it.
 inline constexpr std::uintptr_t lines_ahead = 4;
 
+// What a child refers to, nodes or the blocks of a group of leaves: the bits above its place among these and
+// a leaf's number of blocks.
+FASTRT_INLINE constexpr std::uint64_t part_of(std::uint64_t child) { return child >> 28U; }
+
 class LoneLines {
 public:
   explicit LoneLines(const GeometryView& scene) {
-    for (Part& part : parts_) part = part_of(scene.nodes, 0);
-    parts_[0] = part_of(scene.nodes, sizeof(WideNode));
-    parts_[first_leaves + triangle_group] = part_of(scene.triangles, sizeof(TriangleBlock));
-    parts_[first_leaves + sphere_group] = part_of(scene.spheres, sizeof(SphereBlock));
-    parts_[first_leaves + shape_group] = part_of(scene.shape_blocks, sizeof(ShapeBlock));
+    for (Part& part : parts_) part = make_part(scene.nodes, 0);
+    parts_[part_of(0)] = make_part(scene.nodes, sizeof(WideNode));
+    parts_[part_of(make_leaf(triangle_group, 0, 1))] = make_part(scene.triangles, sizeof(TriangleBlock));
+    parts_[part_of(make_leaf(sphere_group, 0, 1))] = make_part(scene.spheres, sizeof(SphereBlock));
+    parts_[part_of(make_leaf(shape_group, 0, 1))] = make_part(scene.shape_blocks, sizeof(ShapeBlock));
   }
   LoneLines(const LoneLines&) = delete;
   LoneLines& operator=(const LoneLines&) = delete;
@@ -55,7 +59,7 @@ public:
   // written to all lines, but only that one grows.
   [[gnu::always_inline]] inline void add(LoneSlot& slot, std::uint64_t child) {
     const std::uint64_t not_node = child >> 31U, end = (child + 1U) >> 32U;
-    const Part& part = parts_[child >> 28U];
+    const Part& part = parts_[part_of(child)];
     const std::uintptr_t memory = part.first + (child & (max_blocks - 1)) * part.size;
     for (std::uintptr_t i = 0; i < lines_ahead; ++i)
       __builtin_prefetch(reinterpret_cast<const void*>(memory + 64 * i));
@@ -76,13 +80,11 @@ private:
   static constexpr int size = 3 * lone_rays_at_once;
   static_assert(lone_nodes_at_once + lone_leaves_at_once <= lone_rays_at_once);
 
-  // Where what children refer to lies, one after the other, by their highest four bits: nodes, and from
-  // `first_leaves` on the blocks of each group of leaves.
+  // Where what children refer to lies, one after the other, by part_of().
   struct Part {
     std::uintptr_t first, size;
   };
-  static constexpr std::uint32_t first_leaves = 8, parts = 16;
-  static Part part_of(const void* first, std::uintptr_t each) {
+  static Part make_part(const void* first, std::uintptr_t each) {
     return {reinterpret_cast<std::uintptr_t>(first), each};
   }
 
@@ -94,7 +96,7 @@ private:
     tail_[place] = to;
   }
 
-  Part parts_[parts];
+  Part parts_[part_of(no_child) + 1];
   LoneSlot* slots_[lone_places][size + 1];
   LoneSlot** head_[lone_places] = {slots_[at_node], slots_[at_leaf], slots_[at_end]};
   LoneSlot** tail_[lone_places] = {slots_[at_node], slots_[at_leaf], slots_[at_end]};
