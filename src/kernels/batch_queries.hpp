@@ -80,12 +80,13 @@ template <bool any>
 static void trace_tree(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   if (scene.root == no_child) return;
   const bool alike = rays.shape == BatchShape::common_origin || rays.shape == BatchShape::parallel;
-  if (alike && scene.culls != 0 && trace_tile<any>(scene, rays, hits)) return;
+  const TileEnd end = alike && scene.culls != 0 ? trace_tile<any>(scene, rays, hits) : TileEnd::beams;
+  if (end == TileEnd::traced) return;
   LoneColumns columns;
   columns.ready = 0;
   if (scene.culls == 0)
     trace_all_packets<any>(scene, rays, hits, columns);
-  else if (rays.shape == BatchShape::any)
+  else if (rays.shape == BatchShape::any || end == TileEnd::alone)
     trace_rays_alone<any>(scene, rays, hits, columns);
   else
     trace_alike<any>(scene, rays, hits, columns);

@@ -71,7 +71,7 @@ static bool trace_pencil(const GeometryView& scene, const RayBatch& rays, HitBat
   bound_groups(tile.points, errors, view);
   find_far(hits, tile.open, view.groups);
   aim_view(view);
-  if (!sees_little(scene, view, most_in_pencil, __builtin_inff())) return false;
+  if (primitives_seen(scene, view, __builtin_inff()) > most_in_pencil) return false;
   for (int g = 0; g < batch_groups; ++g) live.bits[g] &= ~tile.open[g];
   traverse(tile);
   count_tests(hits, tile.nodes, tile.tests);

@@ -12,8 +12,20 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 // rays more is lost before they are that.)
 inline constexpr float most_in_tile = 3.0F, most_in_pencil = 16.0F;
 
+// The same of rays that lie as those of a camera or light do, and how many before each ray is better off
+// alone. (Those that look for the closest hit are no beams: tiles are faster until there are too many for
+// either.)
+template <bool any>
+inline constexpr float most_before_tile = any ? 16.0F : 70.0F;
+template <bool any>
+inline constexpr float most_before_beams = any ? 300.0F : 70.0F;
+// Scenes of fewer primitives crowd camera rays in no picture worth the trouble of finding out.
+inline constexpr std::uint32_t least_crowd = 1U << 17U;
+
 // The area of all directions together, as far as a plane may stand for them.
 inline constexpr float all_directions = 12.6F;
+template <class View>
+inline constexpr float area_limit = View::begins_apart ? __builtin_inff() : all_directions;
 
 // The area of the part of the plane that the scene covers. (Unused children of the root have inverted boxes.)
 template <class View>
@@ -36,11 +48,11 @@ FASTRT_INLINE float scene_area(const GeometryView& scene, const View& view) {
   return (reduce_min(x0) + reduce_min(minus_x1)) * (reduce_min(y0) + reduce_min(minus_y1));
 }
 
-// Whether a view's groups look at no more than `most` primitives each, on average, if these lie evenly about
-// the scene. most_area: what the scene cannot be larger than.
+// How many primitives a view's groups look at, on average, if these lie evenly about the scene. most_area:
+// what the scene cannot be larger than.
 template <class View>
-FASTRT_INLINE bool sees_little(const GeometryView& scene, const View& view, float most, float most_area) {
-  if (is_leaf(scene.root)) return true;
+FASTRT_INLINE float primitives_seen(const GeometryView& scene, const View& view, float most_area) {
+  if (is_leaf(scene.root)) return 0.0F;
   const PacketF zero(0.0F);
   PacketF sum = zero;
   std::uint32_t used = 0;
@@ -54,8 +66,15 @@ FASTRT_INLINE bool sees_little(const GeometryView& scene, const View& view, floa
     used |= to_bits(rays) << g;
   }
   const float whole = scene_area(scene, view), area = whole < most_area ? whole : most_area;
-  return simd::hadd(sum) * static_cast<float>(scene.primitive_count) <=
-         most * static_cast<float>(__builtin_popcount(used)) * area;
+  return simd::hadd(sum) * static_cast<float>(scene.primitive_count) /
+         (static_cast<float>(__builtin_popcount(used)) * area);
+}
+
+// How many primitives lie before a view's groups; 0 where that is not worth finding out.
+template <bool any, class View>
+FASTRT_INLINE float crowd_before(const GeometryView& scene, const View& view) {
+  if (!any && scene.primitive_count < least_crowd) return 0.0F;
+  return primitives_seen(scene, view, area_limit<View>);
 }
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -96,44 +96,52 @@ template <bool any, class View>
   count_tests(tile.hits, tile.nodes, tile.tests);
 }
 
+// How far the rays of a batch, or of a part of it, have come as one. What is left goes as beams or packets;
+// or alone, where so many primitives lie before them that neighbours have little in common.
+enum class TileEnd { traced, scattered, beams, alone };
+
 // Traces the rays in `live` as one. If they are scattered, nothing is done but to move some of them to
 // `others`.
 template <bool any, class View>
-static Projection trace_together(const GeometryView& scene, const RayBatch& rays, HitBatch& hits,
-                                 LiveRays& live, LiveRays& others) noexcept {
+static TileEnd trace_together(const GeometryView& scene, const RayBatch& rays, HitBatch& hits, LiveRays& live,
+                              LiveRays& others) noexcept {
   TileTraversal<any, View> tile(scene, rays, hits, live);
   tile.view.frame = make_tile_frame(rays, live);
   const Projection projection =
       project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups);
-  if (projection == Projection::scattered && !split_groups(tile.points, tile.view.groups, live, others))
-    return Projection::too_wide;
-  if (projection != Projection::done) return projection;
+  if (projection == Projection::too_wide) return TileEnd::beams;
+  if (projection == Projection::scattered)
+    return split_groups(tile.points, tile.view.groups, live, others) ? TileEnd::scattered : TileEnd::beams;
   aim_tile(tile);
+  const float crowd = crowd_before<any>(scene, tile.view);
+  if (crowd > most_before_beams<any> && scene.few_shapes != 0) return TileEnd::alone;
+  if (crowd > most_before_tile<any>) return TileEnd::beams;
   trace_aimed(tile);
-  return Projection::done;
+  return TileEnd::traced;
 }
 
-// Traces the batch as one, or in few parts; false if its rays don't allow that. Then some of them may have
-// been traced all the same. hits: cleared by the caller.
+// Traces the batch as one, or in few parts. Where its rays don't allow that, some of them may have been
+// traced all the same. hits: cleared by the caller.
 template <bool any, class View>
-static bool trace_tile_in(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+static TileEnd trace_tile_in(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   LiveRays parts[max_tile_splits + 1];
   parts[0] = find_live_rays(rays);
-  if (parts[0].first < 0) return true;
-  if (parts[0].backwards) return false;
+  if (parts[0].first < 0) return TileEnd::traced;
+  if (parts[0].backwards) return TileEnd::beams;
   int count = 1, splits = 0;
   while (count != 0) {
     LiveRays others;
-    const Projection projection = trace_together<any, View>(scene, rays, hits, parts[count - 1], others);
-    if (projection == Projection::too_wide) return false;
-    if (projection == Projection::done)
+    const TileEnd end = trace_together<any, View>(scene, rays, hits, parts[count - 1], others);
+    if (end == TileEnd::traced)
       --count;
+    else if (end != TileEnd::scattered)
+      return end;
     else if (splits++ == max_tile_splits)
-      return false;
+      return TileEnd::beams;
     else
       parts[count++] = others;
   }
-  return true;
+  return TileEnd::traced;
 }
 
 // Traces the batch as one; false, and nothing done, where it is scattered.
@@ -147,14 +155,13 @@ static bool trace_dense_tile_in(const GeometryView& scene, const RayBatch& rays,
   if (project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups) != Projection::done)
     return false;
   aim_tile(tile);
-  if (!sees_little(scene, tile.view, most_in_tile, View::begins_apart ? __builtin_inff() : all_directions))
-    return false;
+  if (primitives_seen(scene, tile.view, area_limit<View>) > most_in_tile) return false;
   trace_aimed(tile);
   return true;
 }
 
 template <bool any>
-static bool trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
+static TileEnd trace_tile(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   return is_parallel(rays.shape) ? trace_tile_in<any, ParallelView>(scene, rays, hits)
                                  : trace_tile_in<any, TileView>(scene, rays, hits);
 }

@@ -143,6 +143,26 @@ TEST_P(LargeTraversal, OddRaysDoNoHarm) {
   }
 }
 
+// So many triangles lie before each group of a tile's rays that the rays go alone.
+class CrowdedTraversal : public LargeTraversal {};
+
+TEST_P(CrowdedTraversal, FindsWhatTheScalarTreeFinds) {
+  Random random(68);
+  for (int i = 0; i < effort(20); ++i) {
+    const bool one_origin = i % 2 == 0;
+    RayRun run = one_origin ? origin_run(scene(), random) : parallel_run(scene(), random);
+    vary(run, scene(), one_origin, random);
+    expect_same(run, all_count, one_origin ? BatchShape::common_origin : BatchShape::parallel);
+  }
+  EXPECT_GT(hits_, 300U / (slow_build ? 20U : 1U));
+}
+
+std::vector<NamedScene> crowded_scenes() {
+  Random random(69);
+  return {{"dense_soup", scene_of(soup(140000, 0.01F, random))}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, CrowdedTraversal, testing::ValuesIn(crowded_scenes()), SceneName());
 INSTANTIATE_TEST_SUITE_P(Scenes, LargeTraversal, testing::ValuesIn(large_scenes()), SceneName());
 
 } // namespace
