@@ -19,6 +19,7 @@ SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options
   MaterialFiles files(path, options);
   ObjReaderSettings settings;
   settings.threads = thread_count(options.threads);
+  place_threads(settings.threads);
   settings.strict = options.strict;
   settings.object_name = path.stem().string();
   settings.read_library = [&files](const std::string& names, std::uint64_t offset, MaterialSet& materials,

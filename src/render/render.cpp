@@ -156,6 +156,7 @@ void blacken(const TileJob& job, unsigned char* codes) {
 void render_all(const Tracer::Parts& parts, const TileJob& job, unsigned char* codes, int threads,
                 FrameProgress& progress) {
   std::atomic<int> next_tile{0};
+  place_threads(thread_count(threads));
 #pragma omp parallel num_threads(thread_count(threads))
   {
     // Exceptions must not leave a parallel region.

@@ -3,6 +3,10 @@
 
 #include <omp.h>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 #include <algorithm>
 
 namespace fastrt {
@@ -11,5 +15,58 @@ int thread_count(int wanted) noexcept {
   const int most = 4 * std::max(1, omp_get_num_procs());
   return std::clamp(wanted <= 0 ? omp_get_max_threads() : wanted, 1, most);
 }
+
+#ifdef __linux__
+namespace {
+
+// Takes the processor on which the caller runs out of `free`, or else the first that it may run on; -1 if
+// none is left.
+int take_processor(const cpu_set_t& allowed, cpu_set_t& free) noexcept {
+  const int here = sched_getcpu();
+  for (int i = -1; i < CPU_SETSIZE; ++i) {
+    const int processor = i < 0 ? here : i;
+    if (processor < 0 || !CPU_ISSET(processor, &allowed) || !CPU_ISSET(processor, &free)) continue;
+    CPU_CLR(processor, &free);
+    return processor;
+  }
+  return -1;
+}
+
+// Moves the caller to a processor of its own. It may leave it again.
+void move_to_own(cpu_set_t& free) noexcept {
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
+  int own = -1;
+#pragma omp critical(fastrt_place_threads)
+  own = take_processor(allowed, free);
+  if (own < 0 || own == sched_getcpu()) return;
+  cpu_set_t there;
+  CPU_ZERO(&there);
+  CPU_SET(own, &there);
+  if (sched_setaffinity(0, sizeof there, &there) == 0) sched_setaffinity(0, sizeof allowed, &allowed);
+}
+
+} // namespace
+
+// With one thread more than there are processors libgomp's threads wait for each other asleep: those that
+// begin on the caller's processor get it at once, and move. The one too many ends when the next region
+// begins.
+void place_threads(int threads) noexcept {
+  static thread_local int placed = 1;
+  cpu_set_t free;
+  if (threads <= placed || omp_in_parallel() != 0 || omp_get_proc_bind() != omp_proc_bind_false ||
+      sched_getaffinity(0, sizeof free, &free) != 0 || CPU_COUNT(&free) != threads)
+    return;
+  placed = threads;
+  take_processor(free, free);
+#pragma omp parallel num_threads(threads + 1)
+  {
+    const int thread = omp_get_thread_num();
+    if (thread > 0 && thread < threads) move_to_own(free);
+  }
+}
+#else
+void place_threads(int) noexcept {}
+#endif
 
 } // namespace fastrt

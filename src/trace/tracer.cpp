@@ -135,6 +135,7 @@ void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
 // Trees -> blocks and rows.
 SceneTrees build(Tracer::Parts& parts, int threads, BvhQuality quality) {
   BuildSettings settings;
+  place_threads(thread_count(threads));
   const std::size_t boxes = std::size_t{parts.scene.primitive_count()} + parts.scene.instance_count();
   settings.threads = boxes < parallel_build_from ? 1 : thread_count(threads);
   settings.quality = quality;
