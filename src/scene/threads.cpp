@@ -32,38 +32,45 @@ int take_processor(const cpu_set_t& allowed, cpu_set_t& free) noexcept {
   return -1;
 }
 
-// Moves the caller to a processor of its own. It may leave it again.
+// Moves the caller there. It may leave again.
+void move_to(int processor, const cpu_set_t& allowed) noexcept {
+  if (processor < 0 || processor == sched_getcpu()) return;
+  cpu_set_t there;
+  CPU_ZERO(&there);
+  CPU_SET(processor, &there);
+  if (sched_setaffinity(0, sizeof there, &there) == 0) sched_setaffinity(0, sizeof allowed, &allowed);
+}
+
+// Moves the caller to a processor that nobody has taken.
 void move_to_own(cpu_set_t& free) noexcept {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
   int own = -1;
 #pragma omp critical(fastrt_place_threads)
   own = take_processor(allowed, free);
-  if (own < 0 || own == sched_getcpu()) return;
-  cpu_set_t there;
-  CPU_ZERO(&there);
-  CPU_SET(own, &there);
-  if (sched_setaffinity(0, sizeof there, &there) == 0) sched_setaffinity(0, sizeof allowed, &allowed);
+  move_to(own, allowed);
 }
 
 } // namespace
 
 // With one thread more than there are processors libgomp's threads wait for each other asleep: those that
-// begin on the caller's processor get it at once, and move. The one too many ends when the next region
-// begins.
+// begin on the caller's processor get it at once, and move. (The one too many ends when the next region
+// begins.) The caller wakes up wherever the last of them was, and moves back.
 void place_threads(int threads) noexcept {
   static thread_local int placed = 1;
-  cpu_set_t free;
+  cpu_set_t allowed;
   if (threads <= placed || omp_in_parallel() != 0 || omp_get_proc_bind() != omp_proc_bind_false ||
-      sched_getaffinity(0, sizeof free, &free) != 0 || CPU_COUNT(&free) != threads)
+      sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) != threads)
     return;
   placed = threads;
-  take_processor(free, free);
+  cpu_set_t free = allowed;
+  const int own = take_processor(allowed, free);
 #pragma omp parallel num_threads(threads + 1)
   {
     const int thread = omp_get_thread_num();
     if (thread > 0 && thread < threads) move_to_own(free);
   }
+  move_to(own, allowed);
 }
 #else
 void place_threads(int) noexcept {}
