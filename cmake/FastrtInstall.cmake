@@ -6,7 +6,7 @@ set(fastrt_config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/fastrt)
 install(TARGETS fastrt_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS fastrt fastrt_public EXPORT fastrtTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/fastrt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# src/oiio/module installs its module.
+# src/modules installs its modules.
 install(EXPORT fastrtTargets NAMESPACE fastrt:: DESTINATION ${fastrt_config_folder})
 
 configure_package_config_file(

@@ -3,8 +3,8 @@
 
 #include "src/load/source.hpp"
 #include "src/load/text.hpp"
-#include "src/oiio/module/module.hpp"
-#include "src/oiio/open.hpp"
+#include "src/modules/open.hpp"
+#include "src/modules/pictures.hpp"
 #include "src/scene/printable.hpp"
 
 #include <fastrt/error.hpp>
@@ -76,7 +76,7 @@ float linear_of(float code) {
   return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
 }
 
-Image image_of(const OiioTexture& read, TextureCode code) {
+Image image_of(const DecodedPicture& read, TextureCode code) {
   const std::size_t count = 4 * static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
   if (read.is_float == 0)
     return {read.width, read.height, std::span(static_cast<const std::uint8_t*>(read.rgba), count),
@@ -88,6 +88,21 @@ Image image_of(const OiioTexture& read, TextureCode code) {
   return {read.width, read.height, std::span<const float>(values, count)};
 }
 
+bool decode_with(const ModuleFunction& module, const PictureFile& file, DecodedPicture& read) {
+  return module.function != nullptr && reinterpret_cast<PictureDecode*>(module.function)(&file, &read) != 0;
+}
+
+// False with read.error set.
+bool decode(const PictureFile& file, DecodedPicture& read) {
+  const std::string_view format = file.format;
+  if ((format == "png" || format == "jpeg") &&
+      decode_with(find_png_jpeg_function(png_jpeg_decode_name), file, read))
+    return true;
+  const ModuleFunction oiio = find_oiio_function(oiio_decode_name);
+  if (oiio.function == nullptr) oiio.fault.copy(read.error, sizeof read.error - 1);
+  return decode_with(oiio, file, read);
+}
+
 } // namespace
 
 TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
@@ -96,12 +111,10 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
     const std::string format = format_of(bytes, path);
     if (format.empty()) return {nullptr, "is no PNG, JPEG, EXR, HDR, TGA, PNM, BMP or TIFF picture"};
     if (format == "png" && !is_whole_png(bytes)) return {nullptr, "can't be read: the file ends early"};
-    const OiioFunction decode = find_oiio_function(oiio_decode_name);
-    if (decode.function == nullptr) return {nullptr, "can't be read: " + printable(decode.fault)};
-    const OiioFile file{format.c_str(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
-                        max_image_side, most_bytes};
-    OiioTexture read{};
-    const bool done = reinterpret_cast<OiioDecode*>(decode.function)(&file, &read) != 0;
+    const PictureFile file{format.c_str(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                           max_image_side, most_bytes};
+    DecodedPicture read{};
+    const bool done = decode(file, read);
     const std::unique_ptr<void, Free> rgba(read.rgba);
     if (!done) return {nullptr, "can't be read: " + printable(read.error)};
     const std::string fault = read.is_damaged != 0 ? "is damaged: " + printable(read.error) : "";

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formats that OpenImageIO writes: calls its module.
-#include "src/oiio/module/module.hpp"
-
-#include "src/oiio/open.hpp"
+#include "src/modules/open.hpp"
+#include "src/modules/pictures.hpp"
 #include "src/scene/printable.hpp"
 #include "src/scene/threads.hpp"
 #include "src/write/formats.hpp"
@@ -18,7 +17,7 @@ namespace fastrt {
 namespace {
 
 OiioEncode* find_encoder() {
-  const OiioFunction found = find_oiio_function(oiio_encode_name);
+  const ModuleFunction found = find_oiio_function(oiio_encode_name);
   if (found.function == nullptr)
     throw OutputError("cannot load the module for this picture format: " + printable(found.fault));
   return reinterpret_cast<OiioEncode*>(found.function);

@@ -16,7 +16,7 @@ complain() {
 floor_of() {
   case $1 in
     simd/* | film/*sampling.hpp) echo 0 ;;
-    load/* | oiio/* | scene/* | film/*) echo 1 ;;
+    load/* | modules/* | scene/* | film/*) echo 1 ;;
     accel/*) echo 2 ;;
     trace/* | kernels/* | reference/*) echo 3 ;;
     write/* | render/*) echo 4 ;;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of the module fastrt_oiio, in plain types: OpenImageIO costs 0.2 s and 129 MB to load, so the
-// library finds it with dlopen when a picture needs it, and nothing else knows of it.
+// The functions of the modules for pictures, in plain types. OpenImageIO costs 0.2 s and 129 MB to load, so
+// the library finds it with dlopen when a picture needs it, and nothing else knows of it. Textures that are
+// usual PNG or JPEG files do not: libpng and libjpeg, in a module of their own, take a millisecond.
 #pragma once
 
 #include <cstddef>
@@ -34,9 +35,11 @@ struct OiioResult {
 using OiioEncode = int(const OiioPicture* picture, OiioResult* result);
 
 inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";
+inline constexpr const char* png_jpeg_module_file = "fastrt_png_jpeg.so";
+inline constexpr const char* png_jpeg_decode_name = "fastrt_png_jpeg_decode_1";
 
 // A whole file in memory.
-struct OiioFile {
+struct PictureFile {
   const char* format; // OpenImageIO's name of it
   const unsigned char* bytes;
   std::size_t count;
@@ -44,7 +47,7 @@ struct OiioFile {
   std::size_t most_bytes; // and those whose pixels take more
 };
 
-struct OiioTexture {
+struct DecodedPicture {
   void* rgba;    // made by malloc, the caller frees it: four floats or bytes a pixel, rows from the top
   int is_float;  // floats, otherwise bytes
   int is_linear; // the file holds linear numbers, not codes
@@ -53,7 +56,8 @@ struct OiioTexture {
   char error[256]; // of damage too
 };
 
-// Returns 1, or 0 with `error` set. Throws nothing.
-using OiioDecode = int(const OiioFile* file, OiioTexture* texture);
+// Returns 1, or 0: with `error` set, or of the module for PNG and JPEG also without, if the file is broken,
+// unusual or too large; OpenImageIO may know what to do with it, or what to say. Throws nothing.
+using PictureDecode = int(const PictureFile* file, DecodedPicture* texture);
 
 } // namespace fastrt

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the module that holds OpenImageIO and loads it.
-#include "src/oiio/open.hpp"
+// Finds modules and loads them.
+#include "src/modules/open.hpp"
 
-#include "src/oiio/module/module.hpp"
+#include "src/modules/pictures.hpp"
 
 #include <dlfcn.h>
 
@@ -44,32 +44,41 @@ struct Module {
   std::string path, fault;
 };
 
-Module load_module() {
+Module load_module(const char* file) {
   std::string searched;
   for (const fs::path& folder : module_folders()) {
-    const fs::path path = folder / oiio_module_file;
+    const fs::path path = folder / file;
     std::error_code error;
     if (!fs::exists(path, error)) {
       searched += ' ' + folder.string();
       continue;
     }
-    // Local and lazy: its 250 libraries neither meet the program's symbols nor get bound before they are
-    // used.
+    // Local and lazy: OpenImageIO's 250 libraries neither meet the program's symbols nor get bound before
+    // they are used.
     void* module = dlopen(path.c_str(), RTLD_LOCAL | RTLD_LAZY);
     if (module == nullptr) return {nullptr, {}, dlerror()};
     return {module, path.string(), {}};
   }
-  return {nullptr, {}, std::string(oiio_module_file) + " is in none of" + searched};
+  return {nullptr, {}, std::string(file) + " is in none of" + searched};
 }
 
-} // namespace
-
-OiioFunction find_oiio_function(const char* name) {
-  static const Module module = load_module();
+ModuleFunction find_function(const Module& module, const char* name) {
   if (module.handle == nullptr) return {nullptr, module.fault};
   void* function = dlsym(module.handle, name);
   if (function == nullptr) return {nullptr, module.path + " is of another version"};
   return {function, {}};
+}
+
+} // namespace
+
+ModuleFunction find_oiio_function(const char* name) {
+  static const Module module = load_module(oiio_module_file);
+  return find_function(module, name);
+}
+
+ModuleFunction find_png_jpeg_function(const char* name) {
+  static const Module module = load_module(png_jpeg_module_file);
+  return find_function(module, name);
 }
 
 } // namespace fastrt

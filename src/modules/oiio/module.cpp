@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/oiio/module/module.hpp"
+#include "src/modules/pictures.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -13,10 +13,10 @@
 
 namespace {
 
-using fastrt::OiioFile;
+using fastrt::DecodedPicture;
 using fastrt::OiioPicture;
 using fastrt::OiioResult;
-using fastrt::OiioTexture;
+using fastrt::PictureFile;
 
 template <class Result>
 int fail(Result& result, const std::string& why) {
@@ -80,7 +80,7 @@ int encode(const OiioPicture& picture, OiioResult& result) {
 }
 
 // "" if a picture like this may be read, else why not: looked at before any memory is taken for it.
-std::string fault_of(const OIIO::ImageSpec& spec, bool is_float, const OiioFile& file) {
+std::string fault_of(const OIIO::ImageSpec& spec, bool is_float, const PictureFile& file) {
   const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
   if (spec.width < 1 || spec.height < 1) return "it has " + size;
   const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
@@ -107,7 +107,7 @@ void spread_channels(const T* from, int channels, std::size_t pixels, T opaque, 
 }
 
 template <class T>
-int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, OiioTexture& texture) {
+int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, DecodedPicture& texture) {
   const OIIO::ImageSpec& spec = input.spec();
   const int channels = std::min(spec.nchannels, 4);
   const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
@@ -125,7 +125,7 @@ int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, OiioText
   return 1;
 }
 
-int decode(const OiioFile& file, OiioTexture& texture) {
+int decode(const PictureFile& file, DecodedPicture& texture) {
   OIIO::attribute("debug", 0);
   OIIO::attribute("threads", 1); // the caller reads several files at once
   OIIO::attribute("exr_threads", 1);
@@ -158,8 +158,8 @@ extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_3(const
   }
 }
 
-extern "C" __attribute__((visibility("default"))) int fastrt_oiio_decode_1(const OiioFile* file,
-                                                                           OiioTexture* texture) {
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_decode_1(const PictureFile* file,
+                                                                           DecodedPicture* texture) {
   try {
     return decode(*file, *texture);
   } catch (const std::exception& error) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/modules/pictures.hpp"
+
+namespace fastrt {
+
+// 8-bit codes of whole, undamaged files into `picture`; false, and nothing kept, of others, of larger ones
+// than the file's limits, and of kinds that are left to OpenImageIO. Neither prints.
+
+// Greys, colours and palettes of up to eight bits, without transparent colours; interlaced too.
+bool decode_png(const PictureFile& file, DecodedPicture& picture) noexcept;
+// Greys and YCbCr or RGB colours.
+bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept;
+
+// Whether a picture of this size may be read.
+inline bool within_limits(const PictureFile& file, std::size_t width, std::size_t height) noexcept {
+  const auto most_side = static_cast<std::size_t>(file.most_side);
+  return width >= 1 && height >= 1 && width <= most_side && height <= most_side &&
+         width * height <= file.most_bytes / 4;
+}
+
+} // namespace fastrt

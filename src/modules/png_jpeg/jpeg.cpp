@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/modules/png_jpeg/decoders.hpp"
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+
+// clang-format off: it takes <cstdio> for granted
+#include <jpeglib.h>
+// clang-format on
+
+#ifndef JCS_ALPHA_EXTENSIONS
+#error "libjpeg-turbo is needed: it writes red, green, blue and alpha"
+#endif
+
+namespace fastrt {
+namespace {
+
+// What must be freed however reading ends: libjpeg's errors jump.
+struct JpegReader {
+  jpeg_decompress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf on_error{};
+  unsigned char* rgba = nullptr;
+};
+
+[[noreturn]] void give_up(j_common_ptr jpeg) {
+  std::longjmp(static_cast<JpegReader*>(jpeg->client_data)->on_error, 1); // NOLINT(cert-err52-cpp): its way
+}
+void say_nothing(j_common_ptr /*jpeg*/) {}
+
+bool is_usual(const jpeg_decompress_struct& jpeg) {
+  return jpeg.data_precision == 8 && (jpeg.jpeg_color_space == JCS_GRAYSCALE ||
+                                      jpeg.jpeg_color_space == JCS_YCbCr || jpeg.jpeg_color_space == JCS_RGB);
+}
+
+bool read(const PictureFile& file, JpegReader& reader) {
+  jpeg_decompress_struct& jpeg = reader.jpeg;
+  if (setjmp(reader.on_error) != 0) return false; // NOLINT(cert-err52-cpp): libjpeg's way
+  jpeg_create_decompress(&jpeg);
+  jpeg_mem_src(&jpeg, file.bytes, static_cast<unsigned long>(file.count));
+  jpeg_read_header(&jpeg, TRUE);
+  if (!is_usual(jpeg) || !within_limits(file, jpeg.image_width, jpeg.image_height)) return false;
+  jpeg.out_color_space = JCS_EXT_RGBA;
+  jpeg_start_decompress(&jpeg);
+  const std::size_t row = std::size_t{4} * jpeg.output_width;
+  reader.rgba = static_cast<unsigned char*>(std::malloc(row * jpeg.output_height));
+  if (reader.rgba == nullptr) return false;
+  while (jpeg.output_scanline < jpeg.output_height) {
+    unsigned char* to = reader.rgba + jpeg.output_scanline * row;
+    jpeg_read_scanlines(&jpeg, &to, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return jpeg.err->num_warnings == 0;
+}
+
+} // namespace
+
+bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept {
+  JpegReader reader;
+  reader.jpeg.err = jpeg_std_error(&reader.errors);
+  reader.errors.error_exit = give_up;
+  reader.errors.output_message = say_nothing;
+  reader.jpeg.client_data = &reader;
+  const bool done = read(file, reader);
+  if (done) {
+    picture.rgba = reader.rgba;
+    picture.width = static_cast<int>(reader.jpeg.output_width);
+    picture.height = static_cast<int>(reader.jpeg.output_height);
+  } else {
+    std::free(reader.rgba);
+  }
+  jpeg_destroy_decompress(&reader.jpeg);
+  return done;
+}
+
+} // namespace fastrt
