@@ -3,6 +3,7 @@
 #include "src/trace/tracer_parts.hpp"
 
 #include <cmath>
+#include <tuple>
 
 namespace fastrt {
 namespace {
@@ -54,9 +55,26 @@ const TextureRow* at(const TextureRows& textures, std::uint32_t id) {
   return id == no_texture ? nullptr : &textures.rows[id];
 }
 
+// Whether two textures have the same colours everywhere.
+bool are_alike(const Texture& a, const Texture& b) {
+  const auto all = [](const Texture& t) {
+    return std::tie(t.kind, t.image, t.color_a, t.color_b, t.space, t.plane_u, t.plane_v, t.scale, t.offset,
+                    t.clamp, t.gain, t.base);
+  };
+  return all(a) == all(b);
+}
+
+// A material's ambient texture: where it is like the diffuse one, that one, so that it is looked up once.
+const TextureRow* ambient_of(const Material& material, const Scene& scene, const TextureRows& textures) {
+  const std::uint32_t ambient = material.ambient_texture, diffuse = material.diffuse_texture;
+  const bool alike = ambient != no_texture && diffuse != no_texture &&
+                     are_alike(scene.textures()[ambient], scene.textures()[diffuse]);
+  return at(textures, alike ? diffuse : ambient);
+}
+
 SurfaceTextures textures_of(const Material& material, const Scene& scene, const TextureRows& textures) {
   SurfaceTextures row{};
-  row.ambient = at(textures, material.ambient_texture);
+  row.ambient = ambient_of(material, scene, textures);
   row.diffuse = at(textures, material.diffuse_texture);
   row.specular = at(textures, material.specular_texture);
   row.emission = at(textures, material.emission_texture);

@@ -139,13 +139,15 @@ static Row3 bumped(const SurfaceTextures& textures, const HitSite& site, float f
   return dot(unit, ng) > 0.0F ? unit : n;
 }
 
-// factor * texture, or factor where there is none.
-FASTRT_INLINE Row3 textured(const float* factor, const TextureRow* row, const HitSite& site,
-                            float footprint) {
-  const Row3 value{factor[0], factor[1], factor[2]};
-  if (row == nullptr) return value;
+// The colour that a factor is multiplied by: 1 where there is no texture.
+FASTRT_INLINE Row3 texture_color(const TextureRow* row, const HitSite& site, float footprint) {
+  if (row == nullptr) return {1.0F, 1.0F, 1.0F};
   const Rgba found = look_up(*row, place_on(*row, site.at, footprint));
-  return value * Row3{found.get(0), found.get(1), found.get(2)};
+  return {found.get(0), found.get(1), found.get(2)};
+}
+
+FASTRT_INLINE Row3 times(const float* factor, const Row3& color) {
+  return Row3{factor[0], factor[1], factor[2]} * color;
 }
 
 FASTRT_INLINE float textured_opacity(const MaterialRow& material, const HitSite& site, float footprint) {
@@ -178,18 +180,21 @@ static void texture_surface(const ShadingView& scene, const PathBatch& rays, con
   const Row3 viewer{s.viewer_x[i], s.viewer_y[i], s.viewer_z[i]};
   const HitSite site = find_site(scene, rays, hits, i, &point);
   const float footprint = (s.width[i] * s.width[i]) / dot(ng, viewer);
-  Row3 ambient = textured(material.ambient, textures.ambient, site, footprint);
-  Row3 diffuse = textured(material.diffuse, textures.diffuse, site, footprint);
+  const Row3 color = texture_color(textures.diffuse, site, footprint);
+  Row3 diffuse = times(material.diffuse, color);
+  Row3 ambient =
+      times(material.ambient,
+            textures.ambient == textures.diffuse ? color : texture_color(textures.ambient, site, footprint));
   if (textures.vertex_colors != 0 && site.is_triangle) {
-    const Row3 color = vertex_color(scene, site);
-    ambient = ambient * color;
-    diffuse = diffuse * color;
+    const Row3 of_vertices = vertex_color(scene, site);
+    ambient = ambient * of_vertices;
+    diffuse = diffuse * of_vertices;
   }
   put(ambient, s.ambient_r, s.ambient_g, s.ambient_b, i);
   put(diffuse, s.diffuse_r, s.diffuse_g, s.diffuse_b, i);
-  put(textured(material.specular, textures.specular, site, footprint), s.specular_r, s.specular_g,
+  put(times(material.specular, texture_color(textures.specular, site, footprint)), s.specular_r, s.specular_g,
       s.specular_b, i);
-  put(textured(material.emission, textures.emission, site, footprint), s.emission_r, s.emission_g,
+  put(times(material.emission, texture_color(textures.emission, site, footprint)), s.emission_r, s.emission_g,
       s.emission_b, i);
   s.opacity[i] = textured_opacity(material, site, footprint);
   if (textures.bump == nullptr) return;
