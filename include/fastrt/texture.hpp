@@ -47,9 +47,11 @@ public:
 
 private:
   void plan_levels(int width, int height, std::size_t given);
-  template <class Store>
-  void make_level(std::size_t i, const Store& store);
-  template <class Store>
+  template <int channels, class Store>
+  void make_byte_levels(const Store& store);
+  template <int channels, class Decode, class Store>
+  void make_level(std::size_t i, const Decode& decode, const Store& store);
+  template <int channels, class Store>
   void make_half_level(std::size_t i, const float* quarters, const Store& store);
 
   std::vector<Level> levels_;

@@ -25,37 +25,37 @@ std::vector<float> decoding(bool srgb) {
 }
 
 // Finds codes by their values, of which there are 256, from 0 up to 1. From where a value's place among
-// `places` begins there are few steps to it.
+// `places` begins there is hardly ever a step to it: places are narrower than codes are apart.
 class CodeFinder {
 public:
-  explicit CodeFinder(const float* values) : values_(values) {
-    for (int i = 0; i <= places; ++i)
-      first_[i] = static_cast<std::uint8_t>(
-          std::lower_bound(values, values + 255, static_cast<float>(i) / places) - values);
+  explicit CodeFinder(const float* values) {
+    ends_[0] = -infinity;
+    std::copy_n(values, 256, ends_ + 1);
+    ends_[257] = infinity;
+    int code = 0;
+    for (int i = 0; i <= places; ++i) {
+      while (code < 255 && values[code] < static_cast<float>(i) / places) ++code;
+      first_[i] = static_cast<std::uint8_t>(code);
+    }
   }
   // The code whose value is nearest to x; of two the greater one. x: at least 0, and little more than 1 at
   // most.
   std::uint8_t nearest(float x) const {
-    const float* above = values_ + first_[std::min(static_cast<int>(x * places), places)];
-    while (above != values_ + 255 && *above < x) ++above;
-    if (above != values_ && x - above[-1] < above[0] - x) --above;
-    return static_cast<std::uint8_t>(above - values_);
+    const float* above = ends_ + 1 + first_[std::min(static_cast<int>(x * places), places)];
+    while (*above < x) ++above;
+    const bool below_is_nearer = x - above[-1] < above[0] - x;
+    return static_cast<std::uint8_t>((above - ends_) - 1 - (below_is_nearer ? 1 : 0));
   }
 
 private:
-  static constexpr int places = 1024;
-  const float* values_;
+  static constexpr int places = 4096;
+  float ends_[258]; // the values between one below all and one above
   std::uint8_t first_[places + 1];
 };
 
-// The mean of four pixels, of two in each of two rows; `quarters` of what their codes stand for.
-glm::vec4 mean_of(const std::uint8_t* upper, const std::uint8_t* lower, const float* quarters) {
-  glm::vec4 mean;
-  for (int c = 0; c < 4; ++c) {
-    const float* const quarter = quarters + (c == 3 ? 256 : 0);
-    mean[c] = ((quarter[upper[c]] + quarter[upper[4 + c]]) + quarter[lower[c]]) + quarter[lower[4 + c]];
-  }
-  return mean;
+// The mean of a channel of four pixels, of two in each of two rows; `quarter` of what its codes stand for.
+float mean_of(const std::uint8_t* upper, const std::uint8_t* lower, int c, const float* quarter) {
+  return ((quarter[upper[c]] + quarter[upper[4 + c]]) + quarter[lower[c]]) + quarter[lower[4 + c]];
 }
 
 // The pixels of one side of the level below that one pixel covers: two, or where the side is odd up to three,
@@ -107,25 +107,35 @@ glm::vec4 Image::pixel(std::size_t level, int x, int y) const {
           decoded_[256U + bytes_[at + 3]]};
 }
 
-template <class Store>
-void Image::make_level(std::size_t i, const Store& store) {
+// decode(at, c): the value of channel c that lies there, of the level below. The first `channels` of each
+// pixel.
+template <int channels, class Decode, class Store>
+void Image::make_level(std::size_t i, const Decode& decode, const Store& store) {
   const Level& below = levels_[i - 1];
   const Level& level = levels_[i];
   const std::vector<Span> columns = spans(below.width, level.width);
   const std::vector<Span> rows = spans(below.height, level.height);
-  std::size_t at = 4 * level.first;
+  std::size_t to = 4 * level.first;
   for (const Span& row : rows)
     for (const Span& column : columns) {
-      glm::vec4 mean(0.0F);
-      for (int y = 0; y < row.count; ++y)
-        for (int x = 0; x < column.count; ++x)
-          mean += (row.share[y] * column.share[x]) * pixel(i - 1, column.first + x, row.first + y);
-      for (int c = 0; c < 4; ++c) store(at++, c, mean[c]);
+      float mean[channels] = {};
+      for (int y = 0; y < row.count; ++y) {
+        const auto pixels = static_cast<std::size_t>(row.first + y) * static_cast<std::size_t>(below.width) +
+                            static_cast<std::size_t>(column.first);
+        std::size_t from = 4 * (below.first + pixels);
+        for (int x = 0; x < column.count; ++x, from += 4) {
+          const float share = row.share[y] * column.share[x];
+          for (int c = 0; c < channels; ++c) mean[c] += share * decode(from + static_cast<std::size_t>(c), c);
+        }
+      }
+      for (int c = 0; c < channels; ++c) store(to + static_cast<std::size_t>(c), c, mean[c]);
+      to += 4;
     }
 }
 
-// Most levels have half the sides of the one below: the same numbers, from shares that are all a quarter.
-template <class Store>
+// Most levels have half the sides of the one below: the same numbers, from shares that are all a quarter. The
+// first `channels` of each pixel.
+template <int channels, class Store>
 void Image::make_half_level(std::size_t i, const float* quarters, const Store& store) {
   const Level& below = levels_[i - 1];
   const Level& level = levels_[i];
@@ -135,31 +145,43 @@ void Image::make_half_level(std::size_t i, const float* quarters, const Store& s
   for (int y = 0; y < level.height; ++y, row += 2 * stride)
     for (int x = 0; x < level.width; ++x) {
       const std::uint8_t* const pixels = row + 8 * static_cast<std::size_t>(x);
-      const glm::vec4 mean = mean_of(pixels, pixels + stride, quarters);
-      for (int c = 0; c < 4; ++c) store(at++, c, mean[c]);
+      for (int c = 0; c < channels; ++c)
+        store(at + static_cast<std::size_t>(c), c,
+              mean_of(pixels, pixels + stride, c, quarters + (c == 3 ? 256 : 0)));
+      at += 4;
     }
+}
+
+// All levels of bytes; what is not among the first `channels` stays.
+template <int channels, class Store>
+void Image::make_byte_levels(const Store& store) {
+  std::vector<float> quarters(decoded_);
+  for (float& value : quarters) value *= 0.25F;
+  const auto decode = [&](std::size_t at, int c) { return decoded_[(c == 3 ? 256U : 0U) + bytes_[at]]; };
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
+    const Level &below = levels_[i - 1], &level = levels_[i];
+    if (below.width == 2 * level.width && below.height == 2 * level.height)
+      make_half_level<channels>(i, quarters.data(), store);
+    else
+      make_level<channels>(i, decode, store);
+  }
 }
 
 Image::Image(int width, int height, std::span<const std::uint8_t> rgba, bool srgb)
     : decoded_(decoding(srgb)) {
   plan_levels(width, height, rgba.size());
   const Level& last = levels_.back();
-  bytes_.resize(4 * (last.first + 1));
+  bytes_.resize(4 * (last.first + 1), 255);
   std::copy(rgba.begin(), rgba.end(), bytes_.begin());
   for (std::size_t i = 3; i < rgba.size() && !has_alpha_; i += 4) has_alpha_ = rgba[i] != 255;
   const CodeFinder colors(decoded_.data()), alphas(decoded_.data() + 256);
   const auto store = [&](std::size_t at, int c, float value) {
     bytes_[at] = (c == 3 ? alphas : colors).nearest(value);
   };
-  std::vector<float> quarters(decoded_);
-  for (float& value : quarters) value *= 0.25F;
-  for (std::size_t i = 1; i < levels_.size(); ++i) {
-    const Level &below = levels_[i - 1], &level = levels_[i];
-    if (below.width == 2 * level.width && below.height == 2 * level.height)
-      make_half_level(i, quarters.data(), store);
-    else
-      make_level(i, store);
-  }
+  if (has_alpha_)
+    make_byte_levels<4>(store);
+  else
+    make_byte_levels<3>(store);
 }
 
 Image::Image(int width, int height, std::span<const float> rgba) {
@@ -169,7 +191,9 @@ Image::Image(int width, int height, std::span<const float> rgba) {
                  [](float x) { return x > 0.0F && x < infinity ? x : 0.0F; });
   for (std::size_t i = 3; i < rgba.size() && !has_alpha_; i += 4) has_alpha_ = floats_[i] != 1.0F;
   for (std::size_t i = 1; i < levels_.size(); ++i)
-    make_level(i, [this](std::size_t at, int, float value) { floats_[at] = value; });
+    make_level<4>(
+        i, [this](std::size_t at, int) { return floats_[at]; },
+        [this](std::size_t at, int, float value) { floats_[at] = value; });
 }
 
 } // namespace fastrt
