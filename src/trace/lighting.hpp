@@ -17,19 +17,6 @@ FASTRT_INLINE std::uint32_t hit_bits(const PathBatch& rays, const HitBatch& hits
   return to_bits(simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0))) & in_batch;
 }
 
-// Calls use(row, mask, bits) once for each material among the lanes in `bits`.
-template <class Use>
-FASTRT_INLINE void for_each_material(const ShadingView& scene, const std::int32_t* materials,
-                                     std::uint32_t bits, const Use& use) {
-  const PathI ids = load<PathI>(materials);
-  while (bits != 0) {
-    const std::int32_t id = materials[__builtin_ctz(bits)];
-    const std::uint32_t same = to_bits(simd::bool_cast(ids == PathI(id))) & bits;
-    use(scene.materials[id], from_bits<widest>(same), same);
-    bits &= ~same;
-  }
-}
-
 FASTRT_INLINE PathV load_point(const SurfaceBatch& s, int i) {
   return load3<PathF>(s.point_x + i, s.point_y + i, s.point_z + i);
 }

@@ -30,4 +30,17 @@ FASTRT_INLINE Surface select(const PathM& mask, const Surface& yes, const Surfac
           select(mask, yes.shading, no.shading), simd::select(mask, yes.magnitude, no.magnitude)};
 }
 
+// Calls use(row, mask, bits) once for each material among the lanes in `bits`.
+template <class Use>
+FASTRT_INLINE void for_each_material(const ShadingView& scene, const std::int32_t* materials,
+                                     std::uint32_t bits, const Use& use) {
+  const PathI ids = load<PathI>(materials);
+  while (bits != 0) {
+    const std::int32_t id = materials[__builtin_ctz(bits)];
+    const std::uint32_t same = to_bits(simd::bool_cast(ids == PathI(id))) & bits;
+    use(scene.materials[id], from_bits<widest>(same), same);
+    bits &= ~same;
+  }
+}
+
 } // namespace fastrt::FASTRT_ISA_NAMESPACE
