@@ -138,13 +138,24 @@ struct SampleOffset {
   float x, y; // from the pixel's centre, in pixels
 };
 
+// Where a filter without a table puts a point of the sequence. (No branches but on the shape.)
+template <FilterShape shape>
+[[gnu::always_inline]] static inline SampleOffset offset_in(const SequencePoint& point, std::uint32_t key) {
+  static_assert(shape != FilterShape::table);
+  const float u = scramble(point.u, key);
+  const float v = scramble(point.v, hash32(key));
+  if (shape == FilterShape::tent) return {tent_warp(u), tent_warp(v)};
+  return {u - 0.5F, v - 0.5F};
+}
+
 [[gnu::always_inline]] static inline SampleOffset sample_offset(std::uint32_t x, std::uint32_t y,
                                                                 const SampleSet& set) {
-  const std::uint32_t key = pixel_key(x, y, set.seed) + (set.lobe ? 0x9E3779B9U : 0U);
+  const std::uint32_t pixel = pixel_key(x, y, set.seed);
+  if (set.filter.shape == FilterShape::tent) return offset_in<FilterShape::tent>(set.point, pixel);
+  if (set.filter.shape == FilterShape::box) return offset_in<FilterShape::box>(set.point, pixel);
+  const std::uint32_t key = pixel + (set.lobe ? 0x9E3779B9U : 0U);
   const float u = scramble(set.point.u, key);
   const float v = scramble(set.point.v, hash32(key));
-  if (set.filter.shape == FilterShape::tent) return {tent_warp(u), tent_warp(v)};
-  if (set.filter.shape == FilterShape::box) return {u - 0.5F, v - 0.5F};
   return {look_up(set.lobe && !set.lobe_across ? set.filter.lobes : set.filter.core, u),
           look_up(set.lobe_across ? set.filter.lobes : set.filter.core, v)};
 }

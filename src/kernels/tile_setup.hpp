@@ -153,17 +153,23 @@ FASTRT_INLINE bool project_group(const TileFrame& f, const RayBatch& rays, const
   return (live.bits[g] & ~ahead) == 0;
 }
 
-// Whether the groups' rectangles lie side by side, more or less. Scattered rays share few nodes: traced as
-// one, each would be shown what all the others need.
+// The share of a batch's rectangle that a group of several samples of a pixel or four stays below.
+inline constexpr float large_group = 0.2F;
+
+// Whether the groups' rectangles lie side by side, more or less, or over each other but none of them is
+// large. Scattered rays share few nodes: traced as one, each would be shown what all the others need.
 FASTRT_INLINE bool groups_are_compact(const TileGroups& groups, const GroupBounds& bounds) {
   const PacketF zero(0.0F);
-  PacketF sum = zero;
+  PacketF sum = zero, most = zero;
   for (int g = 0; g < batch_groups; g += widest) {
     const PacketF x0 = PacketF::load_aligned(groups.x0 + g), x1 = PacketF::load_aligned(groups.x1 + g);
     const PacketF height = PacketF::load_aligned(groups.y1 + g) - PacketF::load_aligned(groups.y0 + g);
-    sum = sum + select(x0 <= x1, (x1 - x0) * height, zero);
+    const PacketF area = select(x0 <= x1, (x1 - x0) * height, zero);
+    sum = sum + area;
+    most = max(most, area);
   }
-  return simd::hadd(sum) <= 1.2F * (bounds.x1 - bounds.x0) * (bounds.y1 - bounds.y0);
+  const float whole = (bounds.x1 - bounds.x0) * (bounds.y1 - bounds.y0);
+  return simd::hadd(sum) <= 1.2F * whole || reduce_max(most) <= large_group * whole;
 }
 
 // What became of rays that were to be projected: too wide, they can't be seen from one plane; scattered, they

@@ -68,10 +68,54 @@ FASTRT_INLINE SampleSet sample_set_of(const TileJob& job, int index) {
   return sample_set(static_cast<std::uint32_t>(index), job.filter, job.seed);
 }
 
+// Samples of pixels, row by row: the pixels' places in the tile, and the points of the sequence.
+struct alignas(64) SampleRows {
+  std::int32_t place[batch_size];
+  std::uint32_t u[batch_size], v[batch_size];
+  int count;
+};
+
+// In filters without a table. (A loop that compilers make SIMD of.)
+template <FilterShape shape>
+static void place_rows_in(const TileJob& job, const SampleRows& rows, SamplePlaces& to) noexcept {
+  const int left = job.x, top = job.y, count = rows.count; // which no store to `to` can change
+  const std::uint32_t seed = job.seed;
+  for (int i = 0; i < count; ++i) {
+    const int x = left + tile_pixel_x(rows.place[i]), y = top + tile_pixel_y(rows.place[i]);
+    const std::uint32_t key = pixel_key(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), seed);
+    const SampleOffset offset = offset_in<shape>({rows.u[i], rows.v[i]}, key);
+    to.px[i] = (static_cast<float>(x) + 0.5F) + offset.x;
+    to.py[i] = (static_cast<float>(y) + 0.5F) + offset.y;
+  }
+}
+
+// Whether place_rows() knows where samples lie.
+FASTRT_INLINE bool places_by_rows(const TileJob& job) {
+  return job.filter.shape != FilterShape::table && job.camera.kind != CameraKind::lens;
+}
+
+FASTRT_INLINE void place_rows(const TileJob& job, const SampleRows& rows, SamplePlaces& to) {
+  if (job.filter.shape == FilterShape::tent)
+    place_rows_in<FilterShape::tent>(job, rows, to);
+  else
+    place_rows_in<FilterShape::box>(job, rows, to);
+}
+
 FASTRT_INLINE void place_samples(const TileJob& job, const TileScratch& scratch, int index,
                                  SamplePlaces& to) {
   const SampleSet set = sample_set_of(job, index);
-  for (int i = 0; i < scratch.place_count; ++i) place_sample(job, scratch.places[i], set, i, to);
+  if (!places_by_rows(job)) {
+    for (int i = 0; i < scratch.place_count; ++i) place_sample(job, scratch.places[i], set, i, to);
+    return;
+  }
+  SampleRows rows;
+  rows.count = scratch.place_count;
+  __builtin_memcpy(rows.place, scratch.places, sizeof rows.place);
+  for (int i = 0; i < rows.count; ++i) {
+    rows.u[i] = set.point.u;
+    rows.v[i] = set.point.v;
+  }
+  place_rows(job, rows, to);
 }
 
 // (first + du * px) + dv * py
@@ -136,13 +180,32 @@ FASTRT_INLINE void make_camera_rays(const TileJob& job, int index, const TileScr
     if (!in_frame(job, scratch.places[i])) rays.t_max[i] = 0.0F;
 }
 
-// The rows of `scratch`, which all are in the frame.
-FASTRT_INLINE void make_row_rays(const TileJob& job, const TileScratch& scratch, PathBatch& rays) {
+// The rows of `scratch`, which all are in the frame: samples first .. last - 1 of each pixel.
+FASTRT_INLINE void make_row_rays(const TileJob& job, int first, int last, const TileScratch& scratch,
+                                 PathBatch& rays) {
   SamplePlaces places;
-  for (int i = 0; i < scratch.row_count; ++i) {
-    place_sample(job, scratch.row_places[i], sample_set_of(job, scratch.row_samples[i]), i, places);
-    rays.pixel[i] = i;
+  const int samples = last - first;
+  if (places_by_rows(job)) {
+    std::uint32_t u[batch_size], v[batch_size];
+    for (int k = 0; k < samples; ++k) {
+      const SequencePoint point = sample_set_of(job, first + k).point;
+      u[k] = point.u;
+      v[k] = point.v;
+    }
+    SampleRows rows;
+    rows.count = scratch.row_count;
+    __builtin_memcpy(rows.place, scratch.row_places, sizeof rows.place);
+    for (int i = 0; i < rows.count; i += samples)
+      for (int k = 0; k < samples; ++k) {
+        rows.u[i + k] = u[k];
+        rows.v[i + k] = v[k];
+      }
+    place_rows(job, rows, places);
+  } else {
+    for (int i = 0; i < scratch.row_count; ++i)
+      place_sample(job, scratch.row_places[i], sample_set_of(job, scratch.row_samples[i]), i, places);
   }
+  for (int i = 0; i < scratch.row_count; ++i) rays.pixel[i] = i;
   aim_rays(job, job.camera.kind, places, scratch.row_count, rays);
 }
 

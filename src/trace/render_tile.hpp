@@ -3,26 +3,10 @@
 // samples").
 #pragma once
 
-#include "src/trace/camera_rays.hpp"
-#include "src/trace/whitted.hpp"
+#include "src/trace/sample_rows.hpp"
 #include "src/trace/whole_tile.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-FASTRT_INLINE void clear(float* r, float* g, float* b) {
-  for (int i = 0; i < batch_size; i += widest)
-    store3(broadcast3<PathF>(0.0F, 0.0F, 0.0F), r + i, g + i, b + i);
-}
-
-// sum = sum + radiance of one sample.
-FASTRT_INLINE void add_sample(const TileScratch& scratch, float* sum_r, float* sum_g, float* sum_b) {
-  for (int i = 0; i < batch_size; i += widest) {
-    const PathV sum = load3<PathF>(sum_r + i, sum_g + i, sum_b + i);
-    const PathV radiance =
-        load3<PathF>(scratch.radiance_r + i, scratch.radiance_g + i, scratch.radiance_b + i);
-    store3(sum + radiance, sum_r + i, sum_g + i, sum_b + i);
-  }
-}
 
 FASTRT_INLINE void put_color(float* to, long pixel, float r, float g, float b) {
   to[3 * pixel] = r;
@@ -39,37 +23,6 @@ static void trace_sample(const TileJob& job, int index, TileScratch& scratch,
   scratch.row_count = 0;
   scratch.sample = index < 0 ? 0 : index;
   trace_tree(job, camera_rays, index <= 0, scratch, counts);
-}
-
-// sum = sum + radiance of the row's sample.
-FASTRT_INLINE void add_row(const TileJob& job, int row, TileScratch& scratch) {
-  const int place = scratch.row_places[row];
-  const bool lobe = in_lobe(job.filter, static_cast<std::uint32_t>(scratch.row_samples[row]));
-  float& r = lobe ? scratch.lobe_r[place] : scratch.sum_r[place];
-  float& g = lobe ? scratch.lobe_g[place] : scratch.sum_g[place];
-  float& b = lobe ? scratch.lobe_b[place] : scratch.sum_b[place];
-  r = r + scratch.radiance_r[row];
-  g = g + scratch.radiance_g[row];
-  b = b + scratch.radiance_b[row];
-}
-
-// The samples of few places, as many together as fill a batch; those of a pixel side by side and in order.
-static void take_rows(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
-  const int most = batch_size / scratch.place_count;
-  for (int first = job.first_sample; first < job.last_sample; first += most) {
-    const int last = job.last_sample - first < most ? job.last_sample : first + most;
-    scratch.row_count = 0;
-    for (int i = 0; i < scratch.place_count; ++i)
-      for (int sample = first; sample < last; ++sample) {
-        scratch.row_places[scratch.row_count] = scratch.places[i];
-        scratch.row_samples[scratch.row_count++] = sample;
-      }
-    clear(scratch.radiance_r, scratch.radiance_g, scratch.radiance_b);
-    PathBatch& camera_rays = take_batch(scratch, 0);
-    make_row_rays(job, scratch, camera_rays);
-    trace_tree(job, camera_rays, false, scratch, counts);
-    for (int row = 0; row < scratch.row_count; ++row) add_row(job, row, scratch);
-  }
 }
 
 // The tile's pixels into the frame.
@@ -126,13 +79,14 @@ static void take_samples(const TileJob& job, TileScratch& scratch, TileRayCounts
   clear(scratch.lobe_r, scratch.lobe_g, scratch.lobe_b);
   if (job.round.sum != nullptr) load_sums(job, scratch);
   if (job.round.active != nullptr && 2 * scratch.place_count <= batch_size)
-    return take_rows(job, scratch, counts);
-  for (int sample = job.first_sample; sample < job.last_sample; ++sample) {
+    return take_few_places(job, scratch, counts);
+  int sample = job.first_sample;
+  for (const int together : {16, 4})
+    for (; job.last_sample - sample >= together; sample += together)
+      take_side_by_side(job, sample, sample + together, scratch, counts);
+  for (; sample < job.last_sample; ++sample) {
     trace_sample(job, sample, scratch, counts);
-    if (in_lobe(job.filter, static_cast<std::uint32_t>(sample)))
-      add_sample(scratch, scratch.lobe_r, scratch.lobe_g, scratch.lobe_b);
-    else
-      add_sample(scratch, scratch.sum_r, scratch.sum_g, scratch.sum_b);
+    add_sample(scratch, sums_of(job, sample, scratch));
   }
 }
 

@@ -84,9 +84,10 @@ struct TileScratch {
   float lobe_r[batch_size], lobe_g[batch_size], lobe_b[batch_size]; // of samples in the filter's lobes
   std::int32_t places[batch_size]; // in the tile, of the pixels that get samples
   int place_count;
-  // Of several samples of few pixels in one batch: the place and the sample of each row of `radiance`.
+  // Of several samples of few pixels in one batch: the place and the sample of each row of `radiance`, those
+  // of a place side by side and in order.
   std::int32_t row_places[batch_size], row_samples[batch_size];
-  int row_count;
+  int row_count, rows_per_place;
   std::int32_t first_primitive[batch_size];
   std::int32_t sample; // that is being traced, where row_count is 0
   bool recording;      // AOVs, while the rays of the pixels' centres are traced

@@ -170,6 +170,11 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
 
 // What the pixels see: in an instance, the primitive that it shows.
 FASTRT_INLINE void keep_first(const ShapeView& shapes, TileScratch& scratch) {
+  if (scratch.row_count != 0) {
+    for (int row = 0; row < scratch.row_count; row += scratch.rows_per_place)
+      scratch.first_primitive[scratch.row_places[row]] = shown_primitive(shapes, scratch.hits, row);
+    return;
+  }
   __builtin_memcpy(scratch.first_primitive, scratch.hits.primitive, sizeof scratch.first_primitive);
   if (shapes.instance_count == 0) return;
   for (int i = 0; i < batch_size; ++i) scratch.first_primitive[i] = shown_primitive(shapes, scratch.hits, i);
