@@ -36,7 +36,8 @@ Scene lit_scene(const std::string& name, Surface surface, Camera& camera) {
   return Scene(std::move(desc));
 }
 
-void render_frame(benchmark::State& state, const std::string& name, Isa isa, Surface surface, int threads) {
+void render_frame(benchmark::State& state, const std::string& name, Isa isa, Surface surface, int samples,
+                  int threads) {
   Camera camera;
   TracerSettings tracer_settings;
   tracer_settings.isa = isa;
@@ -44,6 +45,7 @@ void render_frame(benchmark::State& state, const std::string& name, Isa isa, Sur
   RenderSettings settings;
   settings.width = width;
   settings.height = height;
+  settings.samples_per_pixel = samples;
   settings.threads = threads;
   std::uint64_t rays = 0;
   for (auto _ : state) rays = render(tracer, camera, settings).rays.total();
@@ -54,18 +56,23 @@ void render_frame(benchmark::State& state, const std::string& name, Isa isa, Sur
 } // namespace
 
 void register_frames() {
-  for (const std::string& scene : generated_scene_names())
-    for (const Surface surface : {Surface::plain, Surface::mirror, Surface::glass})
-      for (const Isa isa : available_isas())
-        for (const int threads : {1, 2}) {
-          const std::string name = "frame/" + scene + suffixes[static_cast<int>(surface)] + isa_name(isa) +
-                                   "/threads:" + std::to_string(threads);
-          benchmark::RegisterBenchmark(
-              name.c_str(),
-              [=](benchmark::State& state) { render_frame(state, scene, isa, surface, threads); })
-              ->UseRealTime()
-              ->Unit(benchmark::kMillisecond);
-        }
+  const auto add = [](const std::string& scene, Surface surface, int samples) {
+    for (const Isa isa : available_isas())
+      for (const int threads : {1, 2}) {
+        const std::string name = "frame/" + scene + suffixes[static_cast<int>(surface)] +
+                                 (samples > 1 ? std::to_string(samples) + " samples/" : "") + isa_name(isa) +
+                                 "/threads:" + std::to_string(threads);
+        benchmark::RegisterBenchmark(
+            name.c_str(),
+            [=](benchmark::State& state) { render_frame(state, scene, isa, surface, samples, threads); })
+            ->UseRealTime()
+            ->Unit(benchmark::kMillisecond);
+      }
+  };
+  for (const std::string& scene : generated_scene_names()) {
+    for (const Surface surface : {Surface::plain, Surface::mirror, Surface::glass}) add(scene, surface, 1);
+    add(scene, Surface::plain, 16);
+  }
 }
 
 } // namespace fastrt::bench
