@@ -134,30 +134,46 @@ struct SampleSet {
   return set;
 }
 
+// Samples in lobes are scrambled by another key.
+inline constexpr std::uint32_t lobe_shift = 0x9E3779B9U;
+
 struct SampleOffset {
   float x, y; // from the pixel's centre, in pixels
 };
 
-// Where a filter without a table puts a point of the sequence. (No branches but on the shape.)
+// What scrambles a pixel's points of a set's sequence.
+[[gnu::always_inline]] static inline std::uint32_t sample_key(std::uint32_t x, std::uint32_t y,
+                                                              const SampleSet& set) {
+  return pixel_key(x, y, set.seed) + (set.lobe ? lobe_shift : 0U);
+}
+
+// A point of the unit square.
+struct UnitPlace {
+  float u, v;
+};
+[[gnu::always_inline]] static inline UnitPlace unit_place(const SequencePoint& point, std::uint32_t key) {
+  return {scramble(point.u, key), scramble(point.v, hash32(key))};
+}
+
+// Where filters put it: those without a table, without a branch, and those with one.
 template <FilterShape shape>
-[[gnu::always_inline]] static inline SampleOffset offset_in(const SequencePoint& point, std::uint32_t key) {
+[[gnu::always_inline]] static inline SampleOffset filtered(const UnitPlace& place) {
   static_assert(shape != FilterShape::table);
-  const float u = scramble(point.u, key);
-  const float v = scramble(point.v, hash32(key));
-  if (shape == FilterShape::tent) return {tent_warp(u), tent_warp(v)};
-  return {u - 0.5F, v - 0.5F};
+  if (shape == FilterShape::tent) return {tent_warp(place.u), tent_warp(place.v)};
+  return {place.u - 0.5F, place.v - 0.5F};
+}
+[[gnu::always_inline]] static inline SampleOffset filtered_by_table(const SampleSet& set,
+                                                                    const UnitPlace& place) {
+  return {look_up(set.lobe && !set.lobe_across ? set.filter.lobes : set.filter.core, place.u),
+          look_up(set.lobe_across ? set.filter.lobes : set.filter.core, place.v)};
 }
 
 [[gnu::always_inline]] static inline SampleOffset sample_offset(std::uint32_t x, std::uint32_t y,
                                                                 const SampleSet& set) {
-  const std::uint32_t pixel = pixel_key(x, y, set.seed);
-  if (set.filter.shape == FilterShape::tent) return offset_in<FilterShape::tent>(set.point, pixel);
-  if (set.filter.shape == FilterShape::box) return offset_in<FilterShape::box>(set.point, pixel);
-  const std::uint32_t key = pixel + (set.lobe ? 0x9E3779B9U : 0U);
-  const float u = scramble(set.point.u, key);
-  const float v = scramble(set.point.v, hash32(key));
-  return {look_up(set.lobe && !set.lobe_across ? set.filter.lobes : set.filter.core, u),
-          look_up(set.lobe_across ? set.filter.lobes : set.filter.core, v)};
+  const UnitPlace place = unit_place(set.point, sample_key(x, y, set));
+  if (set.filter.shape == FilterShape::tent) return filtered<FilterShape::tent>(place);
+  if (set.filter.shape == FilterShape::box) return filtered<FilterShape::box>(place);
+  return filtered_by_table(set, place);
 }
 
 // The square -1 .. 1 to the unit disk, areas to areas (Shirley & Chiu 1997); sine and cosine of up to 45
@@ -176,15 +192,27 @@ template <FilterShape shape>
   return {wide ? along : across, wide ? across : along};
 }
 
+// What scrambles a pixel's points on the lens.
+[[gnu::always_inline]] static inline std::uint32_t lens_key(std::uint32_t x, std::uint32_t y,
+                                                            std::uint32_t seed) {
+  return hash32(pixel_key(x, y, seed) + 0x632BE5ABU);
+}
+// Which point of the sequence is the lens's of sample `index`.
+[[gnu::always_inline]] static inline std::uint32_t lens_index(std::uint32_t index, std::uint32_t key) {
+  return scramble_bits(reverse_bits(index), key);
+}
+[[gnu::always_inline]] static inline SampleOffset lens_place(const SequencePoint& point, std::uint32_t key) {
+  const float a = scramble(point.u, hash32(key + 1U));
+  const float b = scramble(point.v, hash32(key + 2U));
+  return disk_point(2.0F * a - 1.0F, 2.0F * b - 1.0F);
+}
+
 // Where the ray of sample `index` of pixel (x, y) leaves the lens, a disk of radius 1: as evenly spread, and
 // shuffled, so that places on the lens and on the image have nothing to do with each other.
 [[gnu::always_inline]] static inline SampleOffset lens_point(std::uint32_t x, std::uint32_t y,
                                                              const SampleSet& set) {
-  const std::uint32_t key = hash32(pixel_key(x, y, set.seed) + 0x632BE5ABU);
-  const SequencePoint point = sequence_point(scramble_bits(reverse_bits(set.index), key));
-  const float a = scramble(point.u, hash32(key + 1U));
-  const float b = scramble(point.v, hash32(key + 2U));
-  return disk_point(2.0F * a - 1.0F, 2.0F * b - 1.0F);
+  const std::uint32_t key = lens_key(x, y, set.seed);
+  return lens_place(sequence_point(lens_index(set.index, key)), key);
 }
 
 } // namespace fastrt

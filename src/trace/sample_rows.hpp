@@ -76,7 +76,7 @@ static void take_rows(const TileJob& job, int begin, int count, int first, int l
   if (scratch.row_count == 0) return;
   clear(scratch.radiance_r, scratch.radiance_g, scratch.radiance_b);
   PathBatch& camera_rays = take_batch(scratch, 0);
-  make_row_rays(job, first, last, scratch, camera_rays);
+  make_row_rays(job, first, scratch, camera_rays);
   trace_tree(job, camera_rays, first == 0, scratch, counts);
   for (int row = 0; row < scratch.row_count; row += scratch.rows_per_place)
     add_rows(job, row, first, scratch.rows_per_place, scratch);
