@@ -10,7 +10,7 @@ static void hit_weights(const ShadingView& scene, const RayBatch& rays, const Hi
                         float* v) noexcept {
   for (int i = 0; i < rays.count; i += widest) {
     const int count = rays.count - i < widest ? rays.count - i : widest;
-    InstanceLanes lanes{};
+    InstanceLanes lanes;
     gather_instances(scene.shapes, hits, i, count, lanes);
     std::uint32_t triangles = 0;
     for (int lane = 0; lane < count; ++lane)

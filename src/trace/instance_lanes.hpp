@@ -23,53 +23,70 @@ FASTRT_INLINE std::int32_t shown_primitive(const ShapeView& shapes, const HitBat
 
 // The maps of the instances that rays hit.
 struct InstanceLanes {
-  alignas(64) float to_object[4][3][widest], to_world[4][3][widest], growth[widest];
+  PathV to_object[4], to_world[4];
+  PathF growth;                               // 1 in the other lanes
   alignas(64) std::int32_t primitive[widest]; // of all lanes: what is shown
+  PathI rows;                                 // words from one instance's row to this one's
   std::uint32_t bits;                         // lanes that hit instances
 };
 
-FASTRT_INLINE void gather_instances(const ShapeView& shapes, const HitBatch& hits, int i, int count,
-                                    InstanceLanes& lanes) {
-  for (int lane = 0; lane < count; ++lane) {
-    lanes.primitive[lane] = hits.primitive[i + lane];
-    lanes.growth[lane] = 1.0F;
-    const InstanceRow* row = instance_of(shapes, hits.primitive[i + lane]);
-    if (row == nullptr) continue;
-    lanes.bits |= 1U << lane;
-    lanes.primitive[lane] = hits.inner[i + lane];
-    lanes.growth[lane] = row->growth;
-    for (int column = 0; column < 4; ++column)
-      for (int c = 0; c < 3; ++c) {
-        lanes.to_object[column][c][lane] = row->to_object[column][c];
-        lanes.to_world[column][c][lane] = row->to_world[column][c];
-      }
+inline constexpr std::int32_t instance_words = sizeof(InstanceRow) / sizeof(float);
+
+// word(row): a number of an instance's row, for the lanes that hit instances; where all hit one, it is read
+// once.
+template <class Word>
+FASTRT_INLINE PathF gather_word(const ShapeView& shapes, const InstanceLanes& lanes, const InstanceRow* only,
+                                const Word& word) {
+  return only != nullptr ? PathF(*word(*only)) : gather(word(*shapes.instances), lanes.rows, lanes.bits);
+}
+
+FASTRT_INLINE void gather_map(const ShapeView& shapes, const InstanceLanes& lanes, const InstanceRow* only,
+                              float (InstanceRow::*map)[4][3], PathV (&out)[4]) {
+  for (int column = 0; column < 4; ++column) {
+    const auto axis = [&](int c) {
+      return gather_word(shapes, lanes, only, [&](const InstanceRow& row) { return &(row.*map)[column][c]; });
+    };
+    out[column] = {axis(0), axis(1), axis(2)};
   }
 }
 
-FASTRT_INLINE PathV map_column(const float (&map)[4][3][widest], int column) {
-  return {PathF::load_aligned(map[column][0]), PathF::load_aligned(map[column][1]),
-          PathF::load_aligned(map[column][2])};
-}
-FASTRT_INLINE PathV map_vector(const float (&map)[4][3][widest], const PathV& v) {
-  return (map_column(map, 0) * v.x + map_column(map, 1) * v.y) + map_column(map, 2) * v.z;
-}
-FASTRT_INLINE PathV map_point(const float (&map)[4][3][widest], const PathV& p) {
-  return map_vector(map, p) + map_column(map, 3);
+FASTRT_INLINE void gather_instances(const ShapeView& shapes, const HitBatch& hits, int i, int count,
+                                    InstanceLanes& lanes) {
+  const PathI ids = PathI::load_aligned(hits.primitive + i), places = ids - PathI(shapes.first_instance);
+  lanes.bits = 0;
+  lanes.growth = PathF(1.0F);
+  ids.store_aligned(lanes.primitive);
+  if (shapes.instance_count == 0) return;
+  const PathM mask = simd::bool_cast(places >= PathI(0));
+  lanes.bits = to_bits(mask) & (count >= widest ? register_bits : (1U << count) - 1U);
+  if (lanes.bits == 0) return;
+  select_ints<PathF>(mask, PathI::load_aligned(hits.inner + i), ids).store_aligned(lanes.primitive);
+  lanes.rows = places * PathI(instance_words);
+  const std::int32_t first = hits.primitive[i + __builtin_ctz(lanes.bits)];
+  const bool is_one = (to_bits(simd::bool_cast(ids == PathI(first))) & lanes.bits) == lanes.bits;
+  const InstanceRow* const only = is_one ? shapes.instances + (first - shapes.first_instance) : nullptr;
+  gather_map(shapes, lanes, only, &InstanceRow::to_object, lanes.to_object);
+  gather_map(shapes, lanes, only, &InstanceRow::to_world, lanes.to_world);
+  const PathF growth = gather_word(shapes, lanes, only, [](const InstanceRow& row) { return &row.growth; });
+  lanes.growth = simd::select(from_bits<widest>(lanes.bits), growth, lanes.growth);
 }
 
+FASTRT_INLINE PathV map_vector(const PathV (&map)[4], const PathV& v) {
+  return (map[0] * v.x + map[1] * v.y) + map[2] * v.z;
+}
+FASTRT_INLINE PathV map_point(const PathV (&map)[4], const PathV& p) { return map_vector(map, p) + map[3]; }
+
 // By the transpose of the inverse.
-FASTRT_INLINE PathV map_normal(const float (&inverse)[4][3][widest], const PathV& n) {
-  const PathV mapped{dot(map_column(inverse, 0), n), dot(map_column(inverse, 1), n),
-                     dot(map_column(inverse, 2), n)};
+FASTRT_INLINE PathV map_normal(const PathV (&inverse)[4], const PathV& n) {
+  const PathV mapped{dot(inverse[0], n), dot(inverse[1], n), dot(inverse[2], n)};
   return normalize(mapped / largest(mapped));
 }
 
 FASTRT_INLINE PathV magnitudes(const PathV& v) { return {abs(v.x), abs(v.y), abs(v.z)}; }
 
-FASTRT_INLINE PathF map_magnitude(const float (&map)[4][3][widest], const PathF& magnitude) {
-  const PathV sum =
-      (magnitudes(map_column(map, 0)) + magnitudes(map_column(map, 1))) + magnitudes(map_column(map, 2));
-  return largest(sum * magnitude + magnitudes(map_column(map, 3)));
+FASTRT_INLINE PathF map_magnitude(const PathV (&map)[4], const PathF& magnitude) {
+  const PathV sum = (magnitudes(map[0]) + magnitudes(map[1])) + magnitudes(map[2]);
+  return largest(sum * magnitude + magnitudes(map[3]));
 }
 
 // The rays that hit instances in object space, the others as they are.
@@ -81,10 +98,9 @@ FASTRT_INLINE void rays_to_objects(const InstanceLanes& lanes, PathV& origin, Pa
 
 // The surfaces of instances in the world, the others as they are.
 FASTRT_INLINE void surfaces_to_world(const InstanceLanes& lanes, Surface& s) {
-  const PathF growth = PathF::load_aligned(lanes.growth);
   const Surface mapped{map_point(lanes.to_world, s.point), map_normal(lanes.to_object, s.geometric),
                        map_normal(lanes.to_object, s.shading),
-                       map_magnitude(lanes.to_world, s.magnitude) * growth};
+                       map_magnitude(lanes.to_world, s.magnitude) * lanes.growth};
   s = select(from_bits<widest>(lanes.bits), mapped, s);
 }
 

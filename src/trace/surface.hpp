@@ -167,19 +167,26 @@ FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* 
   return s;
 }
 
+// The materials of what is shown, or of the instances that have their own.
+FASTRT_INLINE PathI with_overrides(const ShapeView& shapes, const InstanceLanes& lanes,
+                                   const PathI& materials) {
+  if (lanes.bits == 0) return materials;
+  const PathI own = gather(&shapes.instances->material, lanes.rows, lanes.bits);
+  const std::uint32_t overrides =
+      to_bits(simd::bool_cast(own != PathI(static_cast<std::int32_t>(no_override)))) & lanes.bits;
+  return select_ints<PathF>(from_bits<widest>(overrides), own, materials);
+}
+
 // find_surfaces of a scene with instances.
 [[gnu::noinline]] static void find_instance_surfaces(const ShadingView& scene, const PathBatch& rays,
                                                      const HitBatch& hits, std::uint32_t bits, int i,
                                                      SurfaceBatch& batch) noexcept {
   const int count = rays.count - i < widest ? rays.count - i : widest;
-  InstanceLanes lanes{};
+  InstanceLanes lanes;
   gather_instances(scene.shapes, hits, i, count, lanes);
-  for (std::uint32_t left = bits; left != 0; left &= left - 1) {
-    const int ray = i + __builtin_ctz(left);
-    batch.material[ray] = static_cast<std::int32_t>(material_of_hit(scene, hits, ray));
-  }
   const PathI shown = PathI::load_aligned(lanes.primitive);
   const HitKinds kinds = kinds_of(scene, shown, bits);
+  with_overrides(scene.shapes, lanes, materials_of(scene, shown, kinds)).store_aligned(batch.material + i);
   flat_ones(PathI::load_aligned(hits.primitive + i), kinds.flat).store_aligned(batch.planar + i);
   flat_ones(shown, kinds.flat).store_aligned(batch.planar_inner + i);
   const PathV dir = load3<PathF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
@@ -190,7 +197,7 @@ FASTRT_INLINE Surface surfaces_of(const ShadingView& scene, const std::int32_t* 
   if (lanes.bits != 0) surfaces_to_world(lanes, s);
   face_viewer(s, dir);
   store_surface(s, dir, i, batch);
-  PathF::load_aligned(lanes.growth).store_aligned(batch.growth + i);
+  lanes.growth.store_aligned(batch.growth + i);
 }
 
 // The surfaces that rays i .. hit, of the lanes in `bits`; other rows hold no meaning.
