@@ -77,13 +77,12 @@ struct MeshPlace {
 // it, so that strata of the mesh are strata of each triangle.
 [[gnu::always_inline]] static inline MeshPlace mesh_place(const std::uint32_t* begin, std::uint32_t triangles,
                                                           const LightBits& bits) {
+  // The last one that begins at u or before. (Which half it is in can't be foreseen: no branch asks.)
   std::uint32_t chosen = 0;
-  for (std::uint32_t end = triangles; end - chosen > 1;) {
-    const std::uint32_t middle = chosen + (end - chosen) / 2;
-    if (begin[middle] <= bits.u)
-      chosen = middle;
-    else
-      end = middle;
+  for (std::uint32_t count = triangles; count > 1;) {
+    const std::uint32_t half = count / 2;
+    chosen += begin[chosen + half] <= bits.u ? half : 0U;
+    count -= half;
   }
   const std::uint64_t all = std::uint64_t{1} << 32U;
   const std::uint64_t share = (chosen + 1 < triangles ? begin[chosen + 1] : all) - begin[chosen];
