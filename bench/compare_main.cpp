@@ -29,7 +29,7 @@ BuildResult measure_build(const Model& model, int threads, const CompareOptions&
   result.model = model.name;
   result.threads = threads;
   std::vector<double> fastrt_seconds, embree_seconds, ratios;
-  for (int round = 0; round < std::min(options.rounds, 5); ++round) {
+  for (int round = 0; round < options.rounds; ++round) {
     TracerSettings settings;
     settings.threads = threads;
     Scene scene(model.desc);

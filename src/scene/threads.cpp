@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <chrono>
 
 namespace fastrt {
 
@@ -51,26 +52,45 @@ void move_to_own(cpu_set_t& free) noexcept {
   move_to(own, allowed);
 }
 
-} // namespace
-
-// With one thread more than there are processors libgomp's threads wait for each other asleep: those that
-// begin on the caller's processor get it at once, and move. (The one too many ends when the next region
-// begins.) The caller wakes up wherever the last of them was, and moves back.
-void place_threads(int threads) noexcept {
-  static thread_local int placed = 1;
-  cpu_set_t allowed;
-  if (threads <= placed || omp_in_parallel() != 0 || omp_get_proc_bind() != omp_proc_bind_false ||
-      sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) != threads)
-    return;
-  placed = threads;
-  cpu_set_t free = allowed;
-  const int own = take_processor(allowed, free);
-#pragma omp parallel num_threads(threads + 1)
+// Lets each of the caller's first `threads` threads, in a team of `team`, move to a processor of its own.
+// free: those that none has taken, the caller's aside.
+void spread(int team, int threads, cpu_set_t free) noexcept {
+#pragma omp parallel num_threads(team)
   {
     const int thread = omp_get_thread_num();
-    if (thread > 0 && thread < threads) move_to_own(free);
+    if (thread == 0)
+      sched_yield();
+    else if (thread < threads)
+      move_to_own(free);
   }
+}
+
+// For about this long libgomp's threads wait for the next region spinning. After that they sleep, and may
+// wake up on the caller's processor.
+constexpr std::chrono::milliseconds awake(2);
+
+} // namespace
+
+// In a team with one thread more than there are processors libgomp's threads wait for each other asleep:
+// those that begin on the caller's processor get it at once, and move. The caller wakes up wherever the last
+// of them was, and moves back. In the second team, without the one too many, they wake up once more, and from
+// then on wait spinning.
+void place_threads(int threads) noexcept {
+  static thread_local int placed = 1;
+  static thread_local std::chrono::steady_clock::time_point until;
+  const auto now = std::chrono::steady_clock::now();
+  cpu_set_t allowed;
+  if (threads == 1 || (threads <= placed && now < until) || omp_in_parallel() != 0 ||
+      omp_get_proc_bind() != omp_proc_bind_false || sched_getaffinity(0, sizeof allowed, &allowed) != 0 ||
+      CPU_COUNT(&allowed) != threads)
+    return;
+  placed = threads;
+  until = now + awake;
+  cpu_set_t free = allowed;
+  const int own = take_processor(allowed, free);
+  spread(threads + 1, threads, free);
   move_to(own, allowed);
+  spread(threads, threads, free);
 }
 #else
 void place_threads(int) noexcept {}
