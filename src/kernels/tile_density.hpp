@@ -13,7 +13,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 inline constexpr float most_in_tile = 3.0F, most_in_pencil = 16.0F;
 
 // The same of rays that lie as those of a camera or light do, and how many before each ray is better off
-// alone. (Those that look for the closest hit are no beams: tiles are faster until there are too many for
+// alone. (For those that look for the closest hit tiles are better than beams until there are too many for
 // either.)
 template <bool any>
 inline constexpr float most_before_tile = any ? 16.0F : 70.0F;
