@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of the modules for pictures, in plain types. OpenImageIO costs 0.2 s and 129 MB to load, so
 // the library finds it with dlopen when a picture needs it, and nothing else knows of it. Textures that are
-// usual PNG or JPEG files do not: libpng and libjpeg, in a module of their own, take a millisecond.
+// usual PNG or JPEG files, and JPEG pictures, do not: libpng and libjpeg, in a module of their own, take a
+// millisecond.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@ namespace fastrt {
 inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
 inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_3"; // the number changes with the types
 
-struct OiioPicture {
+struct PictureToEncode {
   const char* format; // an extension without the dot
   const void* pixels; // `channels` * width * height values, rows from the top
   int is_float;       // values of four bytes, otherwise bytes
@@ -25,18 +26,20 @@ struct OiioPicture {
   const char* objects; // an attribute of the file, or null
 };
 
-struct OiioResult {
+struct EncodedPicture {
   unsigned char* bytes; // made by malloc; the caller frees it
   std::size_t count;
   char error[256];
 };
 
-// Returns 1, or 0 with `error` set. Throws nothing.
-using OiioEncode = int(const OiioPicture* picture, OiioResult* result);
+// Returns 1, or 0 with `error` set. Throws nothing. (The module for PNG and JPEG: JPEG of three channels of
+// bytes; else 0 with `error` empty.)
+using PictureEncode = int(const PictureToEncode* picture, EncodedPicture* result);
 
 inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";
 inline constexpr const char* png_jpeg_module_file = "fastrt_png_jpeg.so";
 inline constexpr const char* png_jpeg_decode_name = "fastrt_png_jpeg_decode_1";
+inline constexpr const char* png_jpeg_encode_name = "fastrt_png_jpeg_encode_1";
 
 // A whole file in memory.
 struct PictureFile {

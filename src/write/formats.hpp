@@ -37,7 +37,7 @@ struct Channels {
   std::string objects; // attribute "fastrt:objects"; empty: none
 };
 
-// exr and hdr (linear pictures), jpg and jpeg, by the module that holds OpenImageIO.
+// exr and hdr (linear pictures), jpg and jpeg, by modules.
 Bytes encode_with_module(const std::string& format, const Picture& picture);
 Bytes encode_exr(const Channels& channels);
 

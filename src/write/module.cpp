@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that OpenImageIO writes: calls its module.
+// The formats that modules write: JPEG, and those of OpenImageIO.
 #include "src/modules/open.hpp"
 #include "src/modules/pictures.hpp"
 #include "src/scene/printable.hpp"
@@ -11,16 +11,32 @@
 
 #include <cstdlib>
 #include <memory>
+#include <string_view>
 
 namespace fastrt {
 
 namespace {
 
-OiioEncode* find_encoder() {
+PictureEncode* find_encoder() {
   const ModuleFunction found = find_oiio_function(oiio_encode_name);
   if (found.function == nullptr)
     throw OutputError("cannot load the module for this picture format: " + printable(found.fault));
-  return reinterpret_cast<OiioEncode*>(found.function);
+  return reinterpret_cast<PictureEncode*>(found.function);
+}
+
+bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
+
+// Whether the module for PNG and JPEG did it.
+bool encode_as_jpeg(const PictureToEncode& request, EncodedPicture& result) {
+  if (!is_jpeg(request.format)) return false;
+  static const ModuleFunction module = find_png_jpeg_function(png_jpeg_encode_name);
+  return module.function != nullptr &&
+         reinterpret_cast<PictureEncode*>(module.function)(&request, &result) != 0;
+}
+
+bool encode_with_oiio(const PictureToEncode& request, EncodedPicture& result) {
+  static PictureEncode* const encode_picture = find_encoder();
+  return encode_picture(&request, &result) != 0;
 }
 
 struct Free {
@@ -29,15 +45,13 @@ struct Free {
 
 // libjpeg would end the process.
 void check_limits(const std::string& format, const Picture& picture) {
-  const bool is_jpeg = format == "jpg" || format == "jpeg";
-  if (is_jpeg && (picture.width > 65500 || picture.height > 65500))
+  if (is_jpeg(format) && (picture.width > 65500 || picture.height > 65500))
     throw OutputError("a JPEG picture has at most 65500 pixels on a side");
 }
 
-Bytes encode(const OiioPicture& request) {
-  static OiioEncode* const encode_picture = find_encoder();
-  OiioResult result{};
-  const bool done = encode_picture(&request, &result) != 0;
+Bytes encode(const PictureToEncode& request) {
+  EncodedPicture result{};
+  const bool done = encode_as_jpeg(request, result) || encode_with_oiio(request, result);
   const std::unique_ptr<unsigned char, Free> bytes(result.bytes);
   if (!done)
     throw OutputError(std::string("cannot encode the picture as ") + request.format + ": " +
@@ -55,7 +69,7 @@ Bytes encode_with_module(const std::string& format, const Picture& picture) {
     codes.resize(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     put_codes(picture, 0, codes.size(), codes.data());
   }
-  OiioPicture request{};
+  PictureToEncode request{};
   request.format = format.c_str();
   request.pixels = is_float ? static_cast<const void*>(picture.linear) : codes.data();
   request.is_float = is_float ? 1 : 0;
@@ -69,7 +83,7 @@ Bytes encode_with_module(const std::string& format, const Picture& picture) {
 Bytes encode_exr(const Channels& channels) {
   std::vector<const char*> names;
   for (const std::string& name : channels.names) names.push_back(name.c_str());
-  OiioPicture request{};
+  PictureToEncode request{};
   request.format = "exr";
   request.pixels = channels.values.data();
   request.is_float = 1;

@@ -140,7 +140,7 @@ progress_on_a_terminal_only() {
   expect 0 "$scenes/spheres.obj" -r 640x480 -s 4
   [ ! -s err ] || fail "progress without a terminal"
   command -v script >/dev/null || return 0
-  local command="'$fastrt' '$scenes/spheres.obj' -r 1000x750 -s 8"
+  local command="'$fastrt' '$scenes/spheres.obj' -r 1000x750 -s 64"
   TERM=xterm script -qec "$command" /dev/null </dev/null >out
   grep -q 'rendering .* %' out || fail "no progress on a terminal"
   TERM=dumb script -qec "$command" /dev/null </dev/null >out

@@ -14,9 +14,9 @@
 namespace {
 
 using fastrt::DecodedPicture;
-using fastrt::OiioPicture;
-using fastrt::OiioResult;
+using fastrt::EncodedPicture;
 using fastrt::PictureFile;
+using fastrt::PictureToEncode;
 
 template <class Result>
 int fail(Result& result, const std::string& why) {
@@ -28,7 +28,7 @@ int fail(Result& result, const std::string& why) {
   return 0;
 }
 
-OIIO::ImageSpec spec_of(const OiioPicture& picture) {
+OIIO::ImageSpec spec_of(const PictureToEncode& picture) {
   const std::string format = picture.format;
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
                        picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
@@ -51,7 +51,7 @@ OIIO::ImageSpec spec_of(const OiioPicture& picture) {
   return spec;
 }
 
-int encode(const OiioPicture& picture, OiioResult& result) {
+int encode(const PictureToEncode& picture, EncodedPicture& result) {
   OIIO::attribute("debug", 0); // it would print
   OIIO::attribute("threads", picture.threads);
   OIIO::attribute("exr_threads", picture.threads);
@@ -147,8 +147,8 @@ int decode(const PictureFile& file, DecodedPicture& texture) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_3(const OiioPicture* picture,
-                                                                           OiioResult* result) {
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_3(const PictureToEncode* picture,
+                                                                           EncodedPicture* result) {
   try {
     return encode(*picture, *result);
   } catch (const std::exception& error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/modules/png_jpeg/decoders.hpp"
+#include "src/modules/png_jpeg/codecs.hpp"
 
 #include <csetjmp>
 #include <cstdio>
@@ -54,7 +54,69 @@ bool read(const PictureFile& file, JpegReader& reader) {
   return jpeg.err->num_warnings == 0;
 }
 
+// The same of writing.
+struct JpegWriter {
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf on_error{};
+  unsigned char* bytes = nullptr;
+  unsigned long count = 0;
+};
+
+[[noreturn]] void give_up_writing(j_common_ptr jpeg) {
+  std::longjmp(static_cast<JpegWriter*>(jpeg->client_data)->on_error, 1); // NOLINT(cert-err52-cpp): its way
+}
+
+// Renders have sharp edges in colour too: it has as many values as brightness.
+void ask_for_quality(jpeg_compress_struct& jpeg) {
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 95, TRUE);
+  for (int c = 0; c < jpeg.num_components; ++c)
+    jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
+}
+
+bool write(const PictureToEncode& picture, JpegWriter& writer) {
+  jpeg_compress_struct& jpeg = writer.jpeg;
+  if (setjmp(writer.on_error) != 0) return false; // NOLINT(cert-err52-cpp): libjpeg's way
+  jpeg_create_compress(&jpeg);
+  jpeg_mem_dest(&jpeg, &writer.bytes, &writer.count);
+  jpeg.image_width = static_cast<JDIMENSION>(picture.width);
+  jpeg.image_height = static_cast<JDIMENSION>(picture.height);
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  ask_for_quality(jpeg);
+  jpeg_start_compress(&jpeg, TRUE);
+  constexpr unsigned char made_by[] = {'f', 'a', 's', 't', 'r', 't'};
+  jpeg_write_marker(&jpeg, JPEG_COM, made_by, sizeof made_by);
+  const auto* const rows = static_cast<const unsigned char*>(picture.pixels);
+  while (jpeg.next_scanline < jpeg.image_height) {
+    const unsigned char* row = rows + std::size_t{3} * jpeg.image_width * jpeg.next_scanline;
+    auto* from = const_cast<unsigned char*>(row); // which libjpeg only reads
+    jpeg_write_scanlines(&jpeg, &from, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  return true;
+}
+
 } // namespace
+
+bool encode_jpeg(const PictureToEncode& picture, EncodedPicture& result) noexcept {
+  if (picture.is_float != 0 || picture.channels != 3 || picture.channel_names != nullptr) return false;
+  JpegWriter writer;
+  writer.jpeg.err = jpeg_std_error(&writer.errors);
+  writer.errors.error_exit = give_up_writing;
+  writer.errors.output_message = say_nothing;
+  writer.jpeg.client_data = &writer;
+  const bool done = write(picture, writer);
+  jpeg_destroy_compress(&writer.jpeg);
+  if (!done) {
+    std::free(writer.bytes);
+    return false;
+  }
+  result.bytes = writer.bytes;
+  result.count = writer.count;
+  return true;
+}
 
 bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept {
   JpegReader reader;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/modules/png_jpeg/decoders.hpp"
+#include "src/modules/png_jpeg/codecs.hpp"
 
 #include <string_view>
 
@@ -8,4 +8,10 @@ fastrt_png_jpeg_decode_1(const fastrt::PictureFile* file, fastrt::DecodedPicture
   const std::string_view format = file->format;
   if (format == "png") return fastrt::decode_png(*file, *picture) ? 1 : 0;
   return format == "jpeg" && fastrt::decode_jpeg(*file, *picture) ? 1 : 0;
+}
+
+extern "C" __attribute__((visibility("default"))) int
+fastrt_png_jpeg_encode_1(const fastrt::PictureToEncode* picture, fastrt::EncodedPicture* result) {
+  const std::string_view format = picture->format;
+  return (format == "jpg" || format == "jpeg") && fastrt::encode_jpeg(*picture, *result) ? 1 : 0;
 }

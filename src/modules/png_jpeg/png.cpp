@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/modules/png_jpeg/decoders.hpp"
+#include "src/modules/png_jpeg/codecs.hpp"
 
 #include <png.h>
 

@@ -13,6 +13,9 @@ bool decode_png(const PictureFile& file, DecodedPicture& picture) noexcept;
 // Greys and YCbCr or RGB colours.
 bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept;
 
+// Bytes of red, green and blue as JPEG; false, and nothing kept, of anything else, and where memory is out.
+bool encode_jpeg(const PictureToEncode& picture, EncodedPicture& result) noexcept;
+
 // Whether a picture of this size may be read.
 inline bool within_limits(const PictureFile& file, std::size_t width, std::size_t height) noexcept {
   const auto most_side = static_cast<std::size_t>(file.most_side);
