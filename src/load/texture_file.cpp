@@ -92,15 +92,15 @@ bool decode_with(const ModuleFunction& module, const PictureFile& file, DecodedP
   return module.function != nullptr && reinterpret_cast<PictureDecode*>(module.function)(&file, &read) != 0;
 }
 
-// False with read.error set.
-bool decode(const PictureFile& file, DecodedPicture& read) {
+// "" if done, else why not.
+std::string decode(const PictureFile& file, DecodedPicture& read) {
   const std::string_view format = file.format;
   if ((format == "png" || format == "jpeg") &&
       decode_with(find_png_jpeg_function(png_jpeg_decode_name), file, read))
-    return true;
+    return {};
   const ModuleFunction oiio = find_oiio_function(oiio_decode_name);
-  if (oiio.function == nullptr) oiio.fault.copy(read.error, sizeof read.error - 1);
-  return decode_with(oiio, file, read);
+  if (oiio.function == nullptr) return oiio.fault;
+  return decode_with(oiio, file, read) ? std::string() : read.error;
 }
 
 } // namespace
@@ -114,9 +114,9 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
     const PictureFile file{format.c_str(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
                            max_image_side, most_bytes};
     DecodedPicture read{};
-    const bool done = decode(file, read);
+    const std::string why_not = decode(file, read);
     const std::unique_ptr<void, Free> rgba(read.rgba);
-    if (!done) return {nullptr, "can't be read: " + printable(read.error)};
+    if (!why_not.empty()) return {nullptr, "can't be read: " + printable(why_not)};
     const std::string fault = read.is_damaged != 0 ? "is damaged: " + printable(read.error) : "";
     return {std::make_shared<const Image>(image_of(read, code)), fault};
   } catch (const InputError& error) {

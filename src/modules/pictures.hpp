@@ -32,8 +32,8 @@ struct EncodedPicture {
   char error[256];
 };
 
-// Returns 1, or 0 with `error` set. Throws nothing. (The module for PNG and JPEG: JPEG of three channels of
-// bytes; else 0 with `error` empty.)
+// Returns 1, or 0 with `error` set. Throws nothing. The module for PNG and JPEG makes JPEG of three channels
+// of bytes, the one that holds OpenImageIO all else.
 using PictureEncode = int(const PictureToEncode* picture, EncodedPicture* result);
 
 inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";

@@ -156,8 +156,9 @@ void blacken(const TileJob& job, unsigned char* codes) {
 void render_all(const Tracer::Parts& parts, const TileJob& job, unsigned char* codes, int threads,
                 FrameProgress& progress) {
   std::atomic<int> next_tile{0};
-  place_threads(thread_count(threads));
-#pragma omp parallel num_threads(thread_count(threads))
+  const int team = thread_count(threads);
+  place_threads(team);
+#pragma omp parallel num_threads(team)
   {
     // Exceptions must not leave a parallel region.
     try {

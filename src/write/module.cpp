@@ -17,33 +17,20 @@ namespace fastrt {
 
 namespace {
 
-PictureEncode* find_encoder() {
-  const ModuleFunction found = find_oiio_function(oiio_encode_name);
+bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
+
+PictureEncode* find_encoder(std::string_view format) {
+  const ModuleFunction found =
+      is_jpeg(format) ? find_png_jpeg_function(png_jpeg_encode_name) : find_oiio_function(oiio_encode_name);
   if (found.function == nullptr)
     throw OutputError("cannot load the module for this picture format: " + printable(found.fault));
   return reinterpret_cast<PictureEncode*>(found.function);
-}
-
-bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
-
-// Whether the module for PNG and JPEG did it.
-bool encode_as_jpeg(const PictureToEncode& request, EncodedPicture& result) {
-  if (!is_jpeg(request.format)) return false;
-  static const ModuleFunction module = find_png_jpeg_function(png_jpeg_encode_name);
-  return module.function != nullptr &&
-         reinterpret_cast<PictureEncode*>(module.function)(&request, &result) != 0;
-}
-
-bool encode_with_oiio(const PictureToEncode& request, EncodedPicture& result) {
-  static PictureEncode* const encode_picture = find_encoder();
-  return encode_picture(&request, &result) != 0;
 }
 
 struct Free {
   void operator()(unsigned char* bytes) const { std::free(bytes); }
 };
 
-// libjpeg would end the process.
 void check_limits(const std::string& format, const Picture& picture) {
   if (is_jpeg(format) && (picture.width > 65500 || picture.height > 65500))
     throw OutputError("a JPEG picture has at most 65500 pixels on a side");
@@ -51,7 +38,7 @@ void check_limits(const std::string& format, const Picture& picture) {
 
 Bytes encode(const PictureToEncode& request) {
   EncodedPicture result{};
-  const bool done = encode_as_jpeg(request, result) || encode_with_oiio(request, result);
+  const bool done = find_encoder(request.format)(&request, &result) != 0;
   const std::unique_ptr<unsigned char, Free> bytes(result.bytes);
   if (!done)
     throw OutputError(std::string("cannot encode the picture as ") + request.format + ": " +

@@ -40,10 +40,6 @@ OIIO::ImageSpec spec_of(const PictureToEncode& picture) {
   if (picture.objects != nullptr) spec.attribute("fastrt:objects", picture.objects);
   spec.attribute("Software", "fastrt");
   spec.attribute("oiio:ColorSpace", picture.is_float != 0 ? "Linear" : "sRGB");
-  if (format == "jpg" || format == "jpeg") {
-    spec.attribute("Compression", "jpeg:95");
-    spec.attribute("jpeg:subsampling", "4:4:4"); // renders have sharp edges in colour too
-  }
   if (format == "exr") spec.attribute("Compression", "zip");
   // Else the EXR writer adds the time, and equal pictures would differ in their bytes. It leaves out a
   // number.

@@ -6,14 +6,14 @@
 namespace fastrt {
 
 // 8-bit codes of whole, undamaged files into `picture`; false, and nothing kept, of others, of larger ones
-// than the file's limits, and of kinds that are left to OpenImageIO. Neither prints.
+// than the file's limits, and of kinds that are left to OpenImageIO. Nothing here prints.
 
 // Greys, colours and palettes of up to eight bits, without transparent colours; interlaced too.
 bool decode_png(const PictureFile& file, DecodedPicture& picture) noexcept;
 // Greys and YCbCr or RGB colours.
 bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept;
 
-// Bytes of red, green and blue as JPEG; false, and nothing kept, of anything else, and where memory is out.
+// Red, green and blue, a byte each, as JPEG; false, result.error set and nothing kept if that fails.
 bool encode_jpeg(const PictureToEncode& picture, EncodedPicture& result) noexcept;
 
 // Whether a picture of this size may be read.

@@ -4,9 +4,12 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
-// clang-format off: it takes <cstdio> for granted
+// They take <cstdio>, and the second one the first, for granted.
+// clang-format off
 #include <jpeglib.h>
+#include <jerror.h>
 // clang-format on
 
 #ifndef JCS_ALPHA_EXTENSIONS
@@ -16,18 +19,34 @@
 namespace fastrt {
 namespace {
 
-// What must be freed however reading ends: libjpeg's errors jump.
-struct JpegReader {
-  jpeg_decompress_struct jpeg{};
-  jpeg_error_mgr errors{};
+// libjpeg's errors jump to on_error; why: what it had to say.
+struct JpegErrors {
+  jpeg_error_mgr manager{};
   std::jmp_buf on_error{};
-  unsigned char* rgba = nullptr;
+  char why[JMSG_LENGTH_MAX]{};
 };
 
 [[noreturn]] void give_up(j_common_ptr jpeg) {
-  std::longjmp(static_cast<JpegReader*>(jpeg->client_data)->on_error, 1); // NOLINT(cert-err52-cpp): its way
+  auto& errors = *static_cast<JpegErrors*>(jpeg->client_data);
+  jpeg->err->format_message(jpeg, errors.why);
+  std::longjmp(errors.on_error, 1); // NOLINT(cert-err52-cpp): libjpeg's way
 }
 void say_nothing(j_common_ptr /*jpeg*/) {}
+
+// Before jpeg_create_...(), which keeps them.
+template <class Jpeg>
+void catch_errors(Jpeg& jpeg, JpegErrors& errors) {
+  jpeg.err = jpeg_std_error(&errors.manager);
+  errors.manager.error_exit = give_up;
+  errors.manager.output_message = say_nothing;
+  jpeg.client_data = &errors;
+}
+
+// What must be freed however reading ends.
+struct JpegReader : JpegErrors {
+  jpeg_decompress_struct jpeg{};
+  unsigned char* rgba = nullptr;
+};
 
 bool is_usual(const jpeg_decompress_struct& jpeg) {
   return jpeg.data_precision == 8 && (jpeg.jpeg_color_space == JCS_GRAYSCALE ||
@@ -54,17 +73,36 @@ bool read(const PictureFile& file, JpegReader& reader) {
   return jpeg.err->num_warnings == 0;
 }
 
-// The same of writing.
-struct JpegWriter {
+// The same of writing. (libjpeg's own target in memory does not say what is to be freed after an error.)
+struct JpegWriter : JpegErrors {
   jpeg_compress_struct jpeg{};
-  jpeg_error_mgr errors{};
-  std::jmp_buf on_error{};
+  jpeg_destination_mgr target{};
   unsigned char* bytes = nullptr;
-  unsigned long count = 0;
+  std::size_t size = 0, count = 0; // of the memory, and of it what is written in the end
 };
 
-[[noreturn]] void give_up_writing(j_common_ptr jpeg) {
-  std::longjmp(static_cast<JpegWriter*>(jpeg->client_data)->on_error, 1); // NOLINT(cert-err52-cpp): its way
+JpegWriter& writer_of(j_compress_ptr jpeg) {
+  return static_cast<JpegWriter&>(*static_cast<JpegErrors*>(jpeg->client_data));
+}
+
+// More memory, when all there is has been filled.
+void grow(j_compress_ptr jpeg) {
+  JpegWriter& writer = writer_of(jpeg);
+  const std::size_t size = writer.size == 0 ? std::size_t{1} << 16U : 2 * writer.size;
+  void* const bytes = std::realloc(writer.bytes, size);
+  if (bytes == nullptr) ERREXIT1(jpeg, JERR_OUT_OF_MEMORY, 0);
+  writer.bytes = static_cast<unsigned char*>(bytes);
+  writer.target.next_output_byte = writer.bytes + writer.size;
+  writer.target.free_in_buffer = size - writer.size;
+  writer.size = size;
+}
+boolean grow_and_go_on(j_compress_ptr jpeg) {
+  grow(jpeg);
+  return TRUE;
+}
+void note_count(j_compress_ptr jpeg) {
+  JpegWriter& writer = writer_of(jpeg);
+  writer.count = writer.size - writer.target.free_in_buffer;
 }
 
 // Renders have sharp edges in colour too: it has as many values as brightness.
@@ -79,7 +117,10 @@ bool write(const PictureToEncode& picture, JpegWriter& writer) {
   jpeg_compress_struct& jpeg = writer.jpeg;
   if (setjmp(writer.on_error) != 0) return false; // NOLINT(cert-err52-cpp): libjpeg's way
   jpeg_create_compress(&jpeg);
-  jpeg_mem_dest(&jpeg, &writer.bytes, &writer.count);
+  writer.target.init_destination = grow;
+  writer.target.empty_output_buffer = grow_and_go_on;
+  writer.target.term_destination = note_count;
+  jpeg.dest = &writer.target;
   jpeg.image_width = static_cast<JDIMENSION>(picture.width);
   jpeg.image_height = static_cast<JDIMENSION>(picture.height);
   jpeg.input_components = 3;
@@ -100,30 +141,9 @@ bool write(const PictureToEncode& picture, JpegWriter& writer) {
 
 } // namespace
 
-bool encode_jpeg(const PictureToEncode& picture, EncodedPicture& result) noexcept {
-  if (picture.is_float != 0 || picture.channels != 3 || picture.channel_names != nullptr) return false;
-  JpegWriter writer;
-  writer.jpeg.err = jpeg_std_error(&writer.errors);
-  writer.errors.error_exit = give_up_writing;
-  writer.errors.output_message = say_nothing;
-  writer.jpeg.client_data = &writer;
-  const bool done = write(picture, writer);
-  jpeg_destroy_compress(&writer.jpeg);
-  if (!done) {
-    std::free(writer.bytes);
-    return false;
-  }
-  result.bytes = writer.bytes;
-  result.count = writer.count;
-  return true;
-}
-
 bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept {
   JpegReader reader;
-  reader.jpeg.err = jpeg_std_error(&reader.errors);
-  reader.errors.error_exit = give_up;
-  reader.errors.output_message = say_nothing;
-  reader.jpeg.client_data = &reader;
+  catch_errors(reader.jpeg, reader);
   const bool done = read(file, reader);
   if (done) {
     picture.rgba = reader.rgba;
@@ -133,6 +153,21 @@ bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept {
     std::free(reader.rgba);
   }
   jpeg_destroy_decompress(&reader.jpeg);
+  return done;
+}
+
+bool encode_jpeg(const PictureToEncode& picture, EncodedPicture& result) noexcept {
+  JpegWriter writer;
+  catch_errors(writer.jpeg, writer);
+  const bool done = write(picture, writer);
+  jpeg_destroy_compress(&writer.jpeg);
+  if (done) {
+    result.bytes = writer.bytes;
+    result.count = writer.count;
+  } else {
+    std::free(writer.bytes);
+    std::strncpy(result.error, writer.why, sizeof result.error - 1);
+  }
   return done;
 }
 

@@ -12,6 +12,5 @@ fastrt_png_jpeg_decode_1(const fastrt::PictureFile* file, fastrt::DecodedPicture
 
 extern "C" __attribute__((visibility("default"))) int
 fastrt_png_jpeg_encode_1(const fastrt::PictureToEncode* picture, fastrt::EncodedPicture* result) {
-  const std::string_view format = picture->format;
-  return (format == "jpg" || format == "jpeg") && fastrt::encode_jpeg(*picture, *result) ? 1 : 0;
+  return fastrt::encode_jpeg(*picture, *result) ? 1 : 0;
 }
