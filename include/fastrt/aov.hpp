@@ -3,6 +3,7 @@
 // pixel's centre sees.
 #pragma once
 
+#include <fastrt/column.hpp>
 #include <fastrt/math.hpp>
 
 #include <array>
@@ -43,8 +44,8 @@ std::optional<Aov> aov_named(std::string_view name) noexcept;
 // recursion and cost are never less than 0 and 1.
 struct AovPlane {
   Aov aov;
-  std::vector<float> values;
-  std::vector<std::int32_t> ids;
+  Column<float> values;
+  Column<std::int32_t> ids;
 };
 
 // The colour that stands for an object in scene signatures, as sRGB codes 0..255: always the same for an id,

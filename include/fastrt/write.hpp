@@ -43,12 +43,12 @@ std::vector<unsigned char> encode_image(const std::string& format, std::span<con
 std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std::string> objects = {},
                                          int threads = 0);
 
-// One of the frame's AOVs as a picture, linear RGB, to be looked at or read back from 8 bits: ids are
-// red + 256 * green + 65536 * blue of its sRGB codes, counted from 1; normals are n / 2 + 1 / 2; depth is
-// bright where it is near; position, cost and depth-of-recursion are scaled to their own range.
-std::vector<float> aov_picture(const AovPlane& plane);
+// One of the frame's AOVs as a picture of sRGB codes, three a pixel, to be looked at or read back: ids are
+// red + 256 * green + 65536 * blue, counted from 1; normals are n / 2 + 1 / 2; depth is bright where it is
+// near; position, cost and depth-of-recursion are scaled to their own range.
+std::vector<unsigned char> aov_picture(const AovPlane& plane, int threads = 0);
 
-// Every object in its signature_color(), the background black; linear RGB. `ids`: of Aov::id.
-std::vector<float> signature_picture(const AovPlane& ids);
+// Every object in its signature_color(), the background black; sRGB codes. `ids`: of Aov::id.
+std::vector<unsigned char> signature_picture(const AovPlane& ids, int threads = 0);
 
 } // namespace fastrt

@@ -4,7 +4,7 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
 build_packages=(g++ cmake ninja-build pkg-config libglm-dev libxsimd-dev libopenimageio-dev libpng-dev
-  libjpeg-dev libcli11-dev libtomlplusplus-dev)
+  libjpeg-dev libopenexr-dev libdeflate-dev libcli11-dev libtomlplusplus-dev)
 test_packages=(libgtest-dev libbenchmark-dev binutils)
 
 say() { echo "$*" >&2; }

@@ -2,10 +2,12 @@
 #include "src/cli/extra_files.hpp"
 
 #include "src/cli/save.hpp"
+#include "src/film/srgb.hpp"
 
 #include <fastrt/error.hpp>
 #include <fastrt/write.hpp>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <system_error>
@@ -31,8 +33,18 @@ fs::path beside(const Options& options, const fs::path& output, const char* opti
   return stem;
 }
 
-void save_picture(const fs::path& path, std::span<const float> rgb, const Frame& frame, int threads) {
-  save(path, encode_image(format_of(path), rgb, frame.width, frame.height, threads));
+std::vector<float> linear(std::span<const unsigned char> codes) {
+  std::vector<float> rgb(codes.size());
+  std::transform(codes.begin(), codes.end(), rgb.begin(), linear_of_srgb8);
+  return rgb;
+}
+
+void save_picture(const fs::path& path, std::span<const unsigned char> codes, const Frame& frame,
+                  int threads) {
+  const std::string format = format_of(path);
+  save(path, is_8bit_format(format)
+                 ? encode_image(format, codes, frame.width, frame.height, threads)
+                 : encode_image(format, linear(codes), frame.width, frame.height, threads));
 }
 
 } // namespace
@@ -64,9 +76,9 @@ std::vector<Aov> aovs_to_render(const Options& options) {
 
 void save_extra_files(const ExtraFiles& files, const Frame& frame, int threads) {
   for (const auto& [aov, path] : files.aovs)
-    save_picture(path, aov_picture(*frame.find(aov)), frame, threads);
+    save_picture(path, aov_picture(*frame.find(aov), threads), frame, threads);
   if (!files.signature.empty())
-    save_picture(files.signature, signature_picture(*frame.find(Aov::id)), frame, threads);
+    save_picture(files.signature, signature_picture(*frame.find(Aov::id), threads), frame, threads);
 }
 
 } // namespace fastrt::cli

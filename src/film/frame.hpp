@@ -20,7 +20,7 @@ void check(const RenderSettings& settings);
 Crop part_of(const RenderSettings& settings);
 
 // A frame's memory; its colours and primitives are for the threads to fill, who so touch it first.
-Frame make_frame(int width, int height, const std::vector<Aov>& aovs);
+Frame make_frame(int width, int height, const std::vector<Aov>& aovs, int threads);
 
 // One that keeps codes alone.
 Frame make_srgb8_frame(int width, int height);
@@ -30,7 +30,7 @@ Frame make_srgb8_frame(int width, int height);
 void keep_pixels(const RenderSettings& settings, Frame& frame);
 
 // A black frame that sees nothing, with the AOVs that are asked for.
-Frame black_frame(int width, int height, const std::vector<Aov>& aovs = {});
+Frame black_frame(int width, int height, const std::vector<Aov>& aovs = {}, int threads = 1);
 
 // How far a frame is, shared by the threads that make it in `parts` parts (rows or tiles).
 class FrameProgress {

@@ -81,4 +81,9 @@ ModuleFunction find_png_jpeg_function(const char* name) {
   return find_function(module, name);
 }
 
+ModuleFunction find_openexr_function(const char* name) {
+  static const Module module = load_module(openexr_module_file);
+  return find_function(module, name);
+}
+
 } // namespace fastrt

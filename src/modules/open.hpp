@@ -15,5 +15,6 @@ struct ModuleFunction {
 // once.
 ModuleFunction find_oiio_function(const char* name);
 ModuleFunction find_png_jpeg_function(const char* name);
+ModuleFunction find_openexr_function(const char* name);
 
 } // namespace fastrt

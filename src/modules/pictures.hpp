@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of the modules for pictures, in plain types. OpenImageIO costs 0.2 s and 129 MB to load, so
 // the library finds it with dlopen when a picture needs it, and nothing else knows of it. Textures that are
-// usual PNG or JPEG files, and JPEG pictures, do not: libpng and libjpeg, in a module of their own, take a
-// millisecond.
+// usual PNG or JPEG files, and JPEG and EXR pictures, do not: libpng and libjpeg, and OpenEXR's core, in
+// modules of their own, take a millisecond.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,14 @@
 namespace fastrt {
 
 inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
-inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_3"; // the number changes with the types
+inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_4"; // the number changes with the types
 
 struct PictureToEncode {
   const char* format; // an extension without the dot
-  const void* pixels; // `channels` * width * height values, rows from the top
-  int is_float;       // values of four bytes, otherwise bytes
+  const void* pixels; // 3 * width * height values, rows from the top
+  int is_float;       // otherwise bytes
   int width, height;
   int threads;
-  int channels;
-  // Of channels that are more than red, green and blue (else null): their names, and which hold unsigned
-  // integers and no floats.
-  const char* const* channel_names;
-  const unsigned char* is_integer;
-  const char* objects; // an attribute of the file, or null
 };
 
 struct EncodedPicture {
@@ -32,14 +26,36 @@ struct EncodedPicture {
   char error[256];
 };
 
-// Returns 1, or 0 with `error` set. Throws nothing. The module for PNG and JPEG makes JPEG of three channels
-// of bytes, the one that holds OpenImageIO all else.
+// Returns 1, or 0 with `error` set. Throws nothing. The module for PNG and JPEG makes JPEG of bytes, the one
+// that holds OpenImageIO all else but EXR.
 using PictureEncode = int(const PictureToEncode* picture, EncodedPicture* result);
+
+// Numbers of four bytes, one a pixel, rows from the top.
+struct LayerChannel {
+  const char* name;
+  const void* values;
+  std::size_t stride; // from a pixel's number to the next one's, in numbers
+  int is_integer;     // unsigned integers, otherwise floats
+};
+
+struct LayersToEncode {
+  const LayerChannel* channels;
+  int channel_count;
+  int width, height;
+  int threads;
+  const char* objects; // the file's attribute "fastrt:objects", or null
+};
+
+inline constexpr const char* openexr_module_file = "fastrt_openexr.so";
+inline constexpr const char* openexr_encode_name = "fastrt_openexr_encode_1";
+
+// An EXR file; else as PictureEncode.
+using LayersEncode = int(const LayersToEncode* layers, EncodedPicture* result);
 
 inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";
 inline constexpr const char* png_jpeg_module_file = "fastrt_png_jpeg.so";
 inline constexpr const char* png_jpeg_decode_name = "fastrt_png_jpeg_decode_1";
-inline constexpr const char* png_jpeg_encode_name = "fastrt_png_jpeg_encode_1";
+inline constexpr const char* png_jpeg_encode_name = "fastrt_png_jpeg_encode_2";
 
 // A whole file in memory.
 struct PictureFile {

@@ -190,7 +190,7 @@ Frame render(const Scene& scene, const HitFinder& finder, const Camera& camera,
           camera_footprint(camera_frame, settings.samples_per_pixel),
           surroundings_of(scene, finder, camera_frame, settings.width, settings.height),
           nullptr};
-  Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs);
+  Frame frame = black_frame(part.x1 - part.x0, part.y1 - part.y0, settings.aovs, settings.threads);
   PhotonPlan plan;
   if (settings.caustic_photons > 0) plan = plan_caustic_photons(scene, settings.caustic_photons);
   const std::vector<PhotonChunk> chunks = photon_chunks(plan);

@@ -199,10 +199,10 @@ void show_caustics(Caustics& caustics, FrameProgress& progress, TileJob& job) {
 
 Frame frame_memory(const RenderSettings& settings, const Crop& part) {
   const int width = part.x1 - part.x0, height = part.y1 - part.y0;
-  if (settings.adaptive > 0.0F) return black_frame(width, height, settings.aovs);
+  if (settings.adaptive > 0.0F) return black_frame(width, height, settings.aovs, settings.threads);
   if (settings.pixel_format == PixelFormat::srgb8 && settings.aovs.empty())
     return make_srgb8_frame(width, height);
-  return make_frame(width, height, settings.aovs);
+  return make_frame(width, height, settings.aovs, settings.threads);
 }
 
 Frame render_pixels(const Tracer& tracer, const Camera& camera, const RenderSettings& settings) {

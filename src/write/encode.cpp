@@ -30,6 +30,7 @@ Bytes encode(const std::string& format, const Picture& picture) {
   if (format == "ppm") return encode_ppm(picture);
   if (format == "pfm") return encode_pfm(picture);
   if (format == "tif" || format == "tiff") return encode_tiff(picture);
+  if (format == "exr") return encode_exr(picture);
   return encode_with_module(format, picture);
 }
 

@@ -2,8 +2,9 @@
 // The encoders behind encode_image. Each takes 3 * width * height values and returns the whole file.
 #pragma once
 
+#include "src/modules/pictures.hpp"
+
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,18 +28,10 @@ Bytes encode_png(const Picture& picture);
 Bytes encode_ppm(const Picture& picture);
 Bytes encode_pfm(const Picture& picture);
 Bytes encode_tiff(const Picture& picture);
-// Columns of 32 bits under names of their own, of one size; floats or unsigned integers.
-struct Channels {
-  std::vector<std::string> names;
-  std::vector<unsigned char> is_integer;
-  std::vector<std::uint32_t> values; // names.size() values a pixel, floats by their bits
-  int width, height;
-  int threads;
-  std::string objects; // attribute "fastrt:objects"; empty: none
-};
-
-// exr and hdr (linear pictures), jpg and jpeg, by modules.
+// hdr (linear pictures), jpg and jpeg, by modules.
 Bytes encode_with_module(const std::string& format, const Picture& picture);
-Bytes encode_exr(const Channels& channels);
+// exr: a linear picture, or any channels; by a module.
+Bytes encode_exr(const Picture& picture);
+Bytes encode_exr(const LayersToEncode& layers);
 
 } // namespace fastrt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that modules write: JPEG, and those of OpenImageIO.
+// The formats that modules write: JPEG, EXR, and those of OpenImageIO.
 #include "src/modules/open.hpp"
 #include "src/modules/pictures.hpp"
 #include "src/scene/printable.hpp"
@@ -19,12 +19,16 @@ namespace {
 
 bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
 
-PictureEncode* find_encoder(std::string_view format) {
-  const ModuleFunction found =
-      is_jpeg(format) ? find_png_jpeg_function(png_jpeg_encode_name) : find_oiio_function(oiio_encode_name);
+template <class Encode>
+Encode* loaded(const ModuleFunction& found) {
   if (found.function == nullptr)
     throw OutputError("cannot load the module for this picture format: " + printable(found.fault));
-  return reinterpret_cast<PictureEncode*>(found.function);
+  return reinterpret_cast<Encode*>(found.function);
+}
+
+PictureEncode* find_encoder(std::string_view format) {
+  return loaded<PictureEncode>(is_jpeg(format) ? find_png_jpeg_function(png_jpeg_encode_name)
+                                               : find_oiio_function(oiio_encode_name));
 }
 
 struct Free {
@@ -36,13 +40,13 @@ void check_limits(const std::string& format, const Picture& picture) {
     throw OutputError("a JPEG picture has at most 65500 pixels on a side");
 }
 
-Bytes encode(const PictureToEncode& request) {
+template <class Request>
+Bytes encode(int (*encoder)(const Request*, EncodedPicture*), const Request& request, const char* format) {
   EncodedPicture result{};
-  const bool done = find_encoder(request.format)(&request, &result) != 0;
+  const bool done = encoder(&request, &result) != 0;
   const std::unique_ptr<unsigned char, Free> bytes(result.bytes);
   if (!done)
-    throw OutputError(std::string("cannot encode the picture as ") + request.format + ": " +
-                      printable(result.error));
+    throw OutputError(std::string("cannot encode the picture as ") + format + ": " + printable(result.error));
   return {bytes.get(), bytes.get() + result.count};
 }
 
@@ -63,25 +67,18 @@ Bytes encode_with_module(const std::string& format, const Picture& picture) {
   request.width = picture.width;
   request.height = picture.height;
   request.threads = thread_count(picture.threads);
-  request.channels = 3;
-  return encode(request);
+  return encode(find_encoder(format), request, request.format);
 }
 
-Bytes encode_exr(const Channels& channels) {
-  std::vector<const char*> names;
-  for (const std::string& name : channels.names) names.push_back(name.c_str());
-  PictureToEncode request{};
-  request.format = "exr";
-  request.pixels = channels.values.data();
-  request.is_float = 1;
-  request.width = channels.width;
-  request.height = channels.height;
-  request.threads = thread_count(channels.threads);
-  request.channels = static_cast<int>(names.size());
-  request.channel_names = names.data();
-  request.is_integer = channels.is_integer.data();
-  request.objects = channels.objects.empty() ? nullptr : channels.objects.c_str();
-  return encode(request);
+Bytes encode_exr(const LayersToEncode& layers) {
+  auto* const encoder = loaded<LayersEncode>(find_openexr_function(openexr_encode_name));
+  return encode(encoder, layers, "exr");
+}
+
+Bytes encode_exr(const Picture& picture) {
+  const LayerChannel channels[] = {
+      {"R", picture.linear, 3, 0}, {"G", picture.linear + 1, 3, 0}, {"B", picture.linear + 2, 3, 0}};
+  return encode_exr({channels, 3, picture.width, picture.height, thread_count(picture.threads), nullptr});
 }
 
 } // namespace fastrt

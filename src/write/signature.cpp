@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene signature: one colour per object.
-#include "src/film/srgb.hpp"
+#include "src/write/codes.hpp"
 
 #include <fastrt/write.hpp>
 
@@ -65,15 +65,13 @@ std::array<std::uint8_t, 3> signature_color(std::uint32_t object) noexcept {
   return codes;
 }
 
-std::vector<float> signature_picture(const AovPlane& ids) {
-  std::vector<float> rgb;
-  rgb.reserve(3 * ids.ids.size());
-  for (const std::int32_t id : ids.ids) {
-    std::array<std::uint8_t, 3> codes{};
-    if (id >= 0) codes = signature_color(static_cast<std::uint32_t>(id));
-    for (const std::uint8_t code : codes) rgb.push_back(linear_of_srgb8(code));
-  }
-  return rgb;
+std::vector<unsigned char> signature_picture(const AovPlane& ids, int threads) {
+  return codes_of_pixels(ids.ids.size(), threads, [&](std::size_t pixel, unsigned char* codes) {
+    const std::int32_t id = ids.ids[pixel];
+    if (id < 0) return;
+    const std::array<std::uint8_t, 3> color = signature_color(static_cast<std::uint32_t>(id));
+    std::copy(color.begin(), color.end(), codes);
+  });
 }
 
 } // namespace fastrt

@@ -195,14 +195,17 @@ TEST_F(ImageFile, MessagesStayOneLine) {
 // A missing module names where it was looked for. In a program of its own, as the module is loaded once.
 TEST_F(ImageFile, AMissingModuleIsReported) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
-  const auto encode_elsewhere = [&] {
+  const auto encode_elsewhere = [&](const char* format) {
     setenv("FASTRT_MODULE_PATH", "/nowhere", 1);
     const std::string error =
-        output_error([&] { encode_image("exr", picture.rgb, picture.width, picture.height); });
+        output_error([&] { encode_image(format, picture.rgb, picture.width, picture.height); });
     std::fputs(error.c_str(), stderr);
     std::_Exit(error.empty() ? 1 : 0);
   };
-  EXPECT_EXIT(encode_elsewhere(), testing::ExitedWithCode(0), "fastrt_oiio.so is in none of /nowhere");
+  const testing::ExitedWithCode failed_well(0);
+  EXPECT_EXIT(encode_elsewhere("hdr"), failed_well, "fastrt_oiio.so is in none of /nowhere");
+  EXPECT_EXIT(encode_elsewhere("jpg"), failed_well, "fastrt_png_jpeg.so is in none of /nowhere");
+  EXPECT_EXIT(encode_elsewhere("exr"), failed_well, "fastrt_openexr.so is in none of /nowhere");
 }
 
 } // namespace

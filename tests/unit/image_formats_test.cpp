@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -94,6 +95,27 @@ TEST(Pfm, IsAHeaderAndTheRowsFromTheBottom) {
   EXPECT_EQ(std::memcmp(file.data(), header.data(), header.size()), 0);
   const float expected[] = {4, 5, 6e30F, 1, 2, 3};
   EXPECT_EQ(std::memcmp(file.data() + header.size(), expected, sizeof expected), 0);
+}
+
+// Numbers of arbitrary bits become no smaller: such rows are stored as they are.
+TEST(Exr, KeepsEveryBitOfRowsThatDoNotCompress) {
+  constexpr int width = 50, height = 40; // of three chunks of 16 rows, one is not full
+  TestPicture picture = flat_picture(width, height, 0.0F);
+  std::mt19937 random(5);
+  for (float& value : picture.rgb)
+    value = std::bit_cast<float>(static_cast<std::uint32_t>(random()) & 0xBFFFFFFFU); // all finite
+  const Folder folder;
+  const fs::path file = folder.path / "bits.exr";
+  write_image(file, picture.rgb, width, height, 2);
+  EXPECT_GT(fs::file_size(file), picture.rgb.size() * sizeof(float));
+  const TestPicture back = read_back(file);
+  ASSERT_EQ(back.rgb.size(), picture.rgb.size());
+  EXPECT_EQ(std::memcmp(back.rgb.data(), picture.rgb.data(), picture.rgb.size() * sizeof(float)), 0);
+}
+
+TEST(Exr, CompressesRowsThatAreAlike) {
+  const TestPicture ball = ball_picture(150, 500);
+  EXPECT_LT(encode_image("exr", ball.rgb, 150, 500).size(), ball.rgb.size() * sizeof(float) * 2 / 3);
 }
 
 TEST(EncodeImage, GivesTheSameBytesEveryTime) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The decoders of usual PNG and JPEG files give what OpenImageIO gives, and leave the others to it.
-#include "src/load/texture_file.hpp"
 #include "src/modules/open.hpp"
 #include "src/modules/pictures.hpp"
 #include "src/write/checksum.hpp"
@@ -183,31 +182,6 @@ TEST(PngJpeg, RealJpegsAreReadAsByOpenImageIO) {
     ++count;
   }
   EXPECT_GT(count, 0);
-}
-
-// Ends the program: with 0 if `done` and libjpeg is loaded, but OpenImageIO is not.
-[[noreturn]] void end_by_what_is_loaded(bool done) {
-  std::ifstream maps("/proc/self/maps");
-  const std::string loaded{std::istreambuf_iterator<char>(maps), {}};
-  const auto is_loaded = [&](const char* name) { return loaded.find(name) != std::string::npos; };
-  std::_Exit(done && is_loaded("libjpeg") && !is_loaded("OpenImageIO") ? 0 : 1);
-}
-
-// In programs of their own: others of these tests load it.
-TEST(PngJpeg, TexturesOfTheseKindsDoNotLoadOpenImageIO) {
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
-  const TemporaryFolder folder;
-  const Bytes png = png_of({rgb, 8});
-  const auto path = folder.write("t.png", std::string(png.begin(), png.end()));
-  const auto read = [&] { end_by_what_is_loaded(read_texture(path, TextureCode::color).image != nullptr); };
-  EXPECT_EXIT(read(), testing::ExitedWithCode(0), "");
-}
-
-TEST(PngJpeg, JpegPicturesDoNotLoadOpenImageIO) {
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
-  const std::vector<float> picture(3 * 8 * 8, 0.5F);
-  const auto write = [&] { end_by_what_is_loaded(!encode_image("jpg", picture, 8, 8, 1).empty()); };
-  EXPECT_EXIT(write(), testing::ExitedWithCode(0), "");
 }
 
 } // namespace

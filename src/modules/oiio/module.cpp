@@ -28,29 +28,20 @@ int fail(Result& result, const std::string& why) {
   return 0;
 }
 
+OIIO::TypeDesc type_of(const PictureToEncode& picture) {
+  return picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+}
+
 OIIO::ImageSpec spec_of(const PictureToEncode& picture) {
-  const std::string format = picture.format;
-  OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
-                       picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-  for (int c = 0; picture.channel_names != nullptr && c < picture.channels; ++c) {
-    spec.channelnames[static_cast<std::size_t>(c)] = picture.channel_names[c];
-    spec.channelformats.push_back(picture.is_integer[c] != 0 ? OIIO::TypeDesc::UINT32
-                                                             : OIIO::TypeDesc::FLOAT);
-  }
-  if (picture.objects != nullptr) spec.attribute("fastrt:objects", picture.objects);
+  OIIO::ImageSpec spec(picture.width, picture.height, 3, type_of(picture));
   spec.attribute("Software", "fastrt");
   spec.attribute("oiio:ColorSpace", picture.is_float != 0 ? "Linear" : "sRGB");
-  if (format == "exr") spec.attribute("Compression", "zip");
-  // Else the EXR writer adds the time, and equal pictures would differ in their bytes. It leaves out a
-  // number.
-  spec.attribute("DateTime", 0);
   return spec;
 }
 
 int encode(const PictureToEncode& picture, EncodedPicture& result) {
   OIIO::attribute("debug", 0); // it would print
   OIIO::attribute("threads", picture.threads);
-  OIIO::attribute("exr_threads", picture.threads);
   const std::string name = std::string("picture.") + picture.format;
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
   if (!output) return fail(result, OIIO::geterror());
@@ -58,11 +49,8 @@ int encode(const PictureToEncode& picture, EncodedPicture& result) {
   OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(name, spec_of(picture)))
     return fail(result, output->geterror());
-  const OIIO::TypeDesc type = picture.channel_names != nullptr ? OIIO::TypeDesc::UNKNOWN // as they are
-                              : picture.is_float != 0          ? OIIO::TypeDesc::FLOAT
-                                                               : OIIO::TypeDesc::UINT8;
   // close() can succeed after a failed write_image.
-  if (!output->write_image(type, picture.pixels)) return fail(result, output->geterror());
+  if (!output->write_image(type_of(picture), picture.pixels)) return fail(result, output->geterror());
   if (!output->close() || output->has_error()) return fail(result, output->geterror());
   output.reset();
 
@@ -143,7 +131,7 @@ int decode(const PictureFile& file, DecodedPicture& texture) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_3(const PictureToEncode* picture,
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_4(const PictureToEncode* picture,
                                                                            EncodedPicture* result) {
   try {
     return encode(*picture, *result);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// AOVs as pictures.
+#include "src/film/srgb.hpp"
+#include "src/write/codes.hpp"
+#include "src/write/stored_ids.hpp"
+
+#include <fastrt/write.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace fastrt {
+namespace {
+
+std::size_t pixel_count(const AovPlane& plane) {
+  return std::max(plane.ids.size(), plane.values.size()) /
+         static_cast<std::size_t>(aov_info(plane.aov).channels);
+}
+
+// The finite numbers of a plane lie within these; 0 and 1 if there are none.
+struct Range {
+  float low = infinity, high = -infinity;
+  void add(float x) {
+    if (!std::isfinite(x)) return;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  // 0 at the low end, 1 at the high one.
+  float place(float x) const { return high > low ? (x - low) / (high - low) : 0.0F; }
+};
+
+using Ranges = std::array<Range, 3>; // of the channels
+
+Ranges ranges_of(const AovPlane& plane, int threads) {
+  const auto channels = static_cast<std::size_t>(aov_info(plane.aov).channels);
+  const std::size_t pixels = pixel_count(plane);
+  std::vector<Ranges> of_pieces(piece_count(pixels));
+  for_pieces(pixels, threads, [&](std::size_t piece, std::size_t first, std::size_t last) {
+    Ranges ranges;
+    for (std::size_t i = first * channels; i < last * channels; ++i)
+      ranges[i % channels].add(plane.values.empty() ? static_cast<float>(plane.ids[i]) : plane.values[i]);
+    of_pieces[piece] = ranges;
+  });
+  Ranges all;
+  for (const Ranges& ranges : of_pieces)
+    for (std::size_t c = 0; c < channels; ++c) {
+      all[c].add(ranges[c].low);
+      all[c].add(ranges[c].high);
+    }
+  return all;
+}
+
+// A share of 255 as a code; 0 for NaN.
+unsigned char code_of_share(float share) {
+  const float code = std::floor(255.0F * share + 0.5F);
+  return static_cast<unsigned char>(code >= 0.0F ? std::min(code, 255.0F) : 0.0F);
+}
+
+bool is_zero(const float* v) { return v[0] == 0.0F && v[1] == 0.0F && v[2] == 0.0F; }
+
+using Codes = std::vector<unsigned char>;
+
+// share(value, channel) of all three values, or black where they are 0: there nothing is seen.
+template <class Share>
+Codes codes_of_vectors(const AovPlane& plane, int threads, const Share& share) {
+  return codes_of_pixels(pixel_count(plane), threads, [&](std::size_t pixel, unsigned char* codes) {
+    const float* const v = &plane.values[3 * pixel];
+    if (is_zero(v)) return;
+    for (std::size_t c = 0; c < 3; ++c) codes[c] = code_of_share(share(v[c], c));
+  });
+}
+
+// Greys: share(pixel).
+template <class Share>
+Codes greys(const AovPlane& plane, int threads, const Share& share) {
+  return codes_of_pixels(pixel_count(plane), threads, [&](std::size_t pixel, unsigned char* codes) {
+    std::fill_n(codes, 3, code_of_share(share(pixel)));
+  });
+}
+
+Codes packed_ids(const AovPlane& plane, int threads) {
+  return codes_of_pixels(plane.ids.size(), threads, [&](std::size_t pixel, unsigned char* codes) {
+    const std::uint32_t id = stored_id(plane.aov, plane.ids[pixel]);
+    for (unsigned c = 0; c < 3; ++c) codes[c] = static_cast<unsigned char>(id >> (8 * c));
+  });
+}
+
+Codes counts(const AovPlane& plane, int threads) {
+  Range range = ranges_of(plane, threads)[0];
+  range.add(0.0F);
+  return greys(plane, threads,
+               [&](std::size_t pixel) { return range.place(static_cast<float>(plane.ids[pixel])); });
+}
+
+// Near is bright; what is seen is never black.
+Codes depths(const AovPlane& plane, int threads) {
+  const Range range = ranges_of(plane, threads)[0];
+  return greys(plane, threads, [&](std::size_t pixel) {
+    const float depth = plane.values[pixel];
+    return std::isfinite(depth) ? 1.0F - 0.9F * range.place(depth) : 0.0F;
+  });
+}
+
+Codes fractions(const AovPlane& plane, int threads) {
+  return codes_of_pixels(pixel_count(plane), threads, [&](std::size_t pixel, unsigned char* codes) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      const float value = plane.values[2 * pixel + c];
+      codes[c] = code_of_share(value - std::floor(value));
+    }
+  });
+}
+
+// Light already.
+Codes colors(const AovPlane& plane, int threads) {
+  Codes codes(plane.values.size());
+  for_pieces(pixel_count(plane), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    to_srgb8(&plane.values[3 * first], 3 * (last - first), &codes[3 * first]);
+  });
+  return codes;
+}
+
+} // namespace
+
+std::vector<unsigned char> aov_picture(const AovPlane& plane, int threads) {
+  switch (plane.aov) {
+  case Aov::id:
+  case Aov::primitive:
+  case Aov::material:
+    return packed_ids(plane, threads);
+  case Aov::depth:
+    return depths(plane, threads);
+  case Aov::normal:
+    return codes_of_vectors(plane, threads, [](float x, std::size_t) { return 0.5F * x + 0.5F; });
+  case Aov::position:
+    return codes_of_vectors(plane, threads, [ranges = ranges_of(plane, threads)](float x, std::size_t c) {
+      return ranges[c].place(x);
+    });
+  case Aov::uv:
+    return fractions(plane, threads);
+  case Aov::albedo:
+    return colors(plane, threads);
+  case Aov::shadow:
+    return codes_of_vectors(plane, threads, [](float x, std::size_t) { return x; });
+  case Aov::recursion:
+  case Aov::cost:
+    break;
+  }
+  return counts(plane, threads);
+}
+
+} // namespace fastrt
