@@ -93,8 +93,8 @@ struct Frame {
   // With PixelFormat::srgb8, which leaves both of these empty: three codes a pixel, what encode_image makes
   // of rgb.
   Column<unsigned char> srgb8;
-  std::vector<std::int32_t> samples; // that each pixel got; empty unless sampling was adaptive
-  std::vector<AovPlane> aovs;        // those that were asked for, each once
+  Column<std::int32_t> samples; // that each pixel got; empty unless sampling was adaptive
+  std::vector<AovPlane> aovs;   // those that were asked for, each once
   RayCounts rays;
   RayTests tests;       // of kernels; Isa::scalar and the reference count none
   bool complete = true; // false when the rendering was cancelled: tiles not done are black

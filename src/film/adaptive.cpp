@@ -2,6 +2,7 @@
 #include "src/film/adaptive.hpp"
 
 #include "src/film/frame.hpp"
+#include "src/film/parallel_fill.hpp"
 #include "src/scene/threads.hpp"
 
 #include <algorithm>
@@ -56,11 +57,11 @@ AdaptiveFilm::AdaptiveFilm(const RenderSettings& settings, const Filter& filter,
     : settings_(&settings), filter_(filter), frame_(&frame), most_(most_samples(settings)),
       last_(settings.samples_per_pixel) {
   const std::size_t pixels = frame.primitive.size();
-  active_.assign(pixels, 1);
-  sum_.assign(3 * pixels, 0.0F);
-  look_.assign(3 * pixels, 0.0F);
-  if (filter.negative != 0.0F) lobe_sum_.assign(3 * pixels, 0.0F);
-  frame.samples.assign(pixels, 0);
+  fill(active_, pixels, std::uint8_t{1}, settings.threads);
+  fill(sum_, 3 * pixels, 0.0F, settings.threads);
+  fill(look_, 3 * pixels, 0.0F, settings.threads);
+  if (filter.negative != 0.0F) fill(lobe_sum_, 3 * pixels, 0.0F, settings.threads);
+  fill(frame.samples, pixels, 0, settings.threads);
 }
 
 void AdaptiveFilm::resolve() {
@@ -94,7 +95,7 @@ bool AdaptiveFilm::differs(int x, int y) const {
 }
 
 // Who has once been left out stays so: the samples that a pixel has are always the first ones.
-bool AdaptiveFilm::mark_row(int y, std::vector<std::uint8_t>& next) const {
+bool AdaptiveFilm::mark_row(int y, Column<std::uint8_t>& next) const {
   bool any = false;
   for (int x = 0; x < frame_->width; ++x) {
     const std::size_t pixel =
@@ -112,7 +113,7 @@ bool AdaptiveFilm::next_round() {
   last_ = first_ > most_ / 2 ? most_ : 2 * first_;
   if (first_ == last_) return false;
   bool any = false;
-  std::vector<std::uint8_t> next(active_.size(), 0);
+  Column<std::uint8_t> next(active_.size(), 0);
 #pragma omp parallel for schedule(static) num_threads(thread_count(settings_->threads)) reduction(|| : any)
   for (int y = 0; y < frame_->height; ++y) any = mark_row(y, next) || any;
   active_ = std::move(next);

@@ -5,10 +5,10 @@
 
 #include "src/film/sampling.hpp"
 
+#include <fastrt/column.hpp>
 #include <fastrt/render.hpp>
 
 #include <cstdint>
-#include <vector>
 
 namespace fastrt {
 
@@ -28,10 +28,10 @@ public:
   // To be added now: samples first() .. last() - 1 of the pixels that are active (1).
   int first() const noexcept { return first_; }
   int last() const noexcept { return last_; }
-  const std::vector<std::uint8_t>& active() const noexcept { return active_; }
+  const Column<std::uint8_t>& active() const noexcept { return active_; }
   // Three floats a pixel: of the samples, and of those in lobes.
-  std::vector<float>& sum() noexcept { return sum_; }
-  std::vector<float>& lobe_sum() noexcept { return lobe_sum_; }
+  Column<float>& sum() noexcept { return sum_; }
+  Column<float>& lobe_sum() noexcept { return lobe_sum_; }
 
   // After a round: puts the pixels' colours and counts into the frame and picks those of the next round.
   // False if there are none.
@@ -40,15 +40,15 @@ public:
 private:
   void resolve();
   bool differs(int x, int y) const;
-  bool mark_row(int y, std::vector<std::uint8_t>& next) const;
+  bool mark_row(int y, Column<std::uint8_t>& next) const;
 
   const RenderSettings* settings_;
   Filter filter_;
   Frame* frame_;
   int most_, first_ = 0, last_;
-  std::vector<std::uint8_t> active_;
-  std::vector<float> sum_, lobe_sum_;
-  std::vector<float> look_; // the colours as the eye sees them
+  Column<std::uint8_t> active_;
+  Column<float> sum_, lobe_sum_;
+  Column<float> look_; // the colours as the eye sees them
 };
 
 // The part `inner` of a frame that shows `outer`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/film/frame.hpp"
 
+#include "src/film/parallel_fill.hpp"
 #include "src/film/srgb.hpp"
 #include "src/scene/threads.hpp"
 
@@ -63,25 +64,15 @@ Crop part_of(const RenderSettings& settings) {
 
 namespace {
 
-template <class T>
-void fill(Column<T>& column, T value, int threads) {
-  const std::size_t count = column.size();
-#pragma omp parallel for simd schedule(static) num_threads(thread_count(threads)) if (count > 65536)
-  for (std::size_t i = 0; i < count; ++i) column[i] = value;
-}
-
-// An AOV of which nothing is seen. Threads touch its memory first.
+// An AOV of which nothing is seen.
 AovPlane empty_plane(Aov aov, std::size_t pixels, int threads) {
   const AovInfo& info = aov_info(aov);
   const std::size_t count = pixels * static_cast<std::size_t>(info.channels);
   AovPlane plane{aov, {}, {}};
-  if (info.integer) {
-    plane.ids.resize(count);
-    fill(plane.ids, aov == Aov::recursion || aov == Aov::cost ? 0 : no_primitive, threads);
-  } else {
-    plane.values.resize(count);
-    fill(plane.values, aov == Aov::depth ? infinity : 0.0F, threads);
-  }
+  if (info.integer)
+    fill(plane.ids, count, aov == Aov::recursion || aov == Aov::cost ? 0 : no_primitive, threads);
+  else
+    fill(plane.values, count, aov == Aov::depth ? infinity : 0.0F, threads);
   return plane;
 }
 
@@ -158,8 +149,8 @@ void keep_pixels(const RenderSettings& settings, Frame& frame) {
 
 Frame black_frame(int width, int height, const std::vector<Aov>& aovs, int threads) {
   Frame frame = make_frame(width, height, aovs, threads);
-  std::fill(frame.rgb.begin(), frame.rgb.end(), 0.0F);
-  std::fill(frame.primitive.begin(), frame.primitive.end(), no_primitive);
+  fill(frame.rgb, frame.rgb.size(), 0.0F, threads);
+  fill(frame.primitive, frame.primitive.size(), no_primitive, threads);
   return frame;
 }
 

@@ -104,7 +104,7 @@ void add_samples(const Job& job, int x, int y, int first, int last, RayCounts& r
   }
 }
 
-Vec3 load(const std::vector<float>& values, std::size_t pixel) {
+Vec3 load(const Column<float>& values, std::size_t pixel) {
   return {values[3 * pixel], values[3 * pixel + 1], values[3 * pixel + 2]};
 }
 

@@ -78,8 +78,7 @@ static void take_samples(const TileJob& job, TileScratch& scratch, TileRayCounts
   clear(scratch.sum_r, scratch.sum_g, scratch.sum_b);
   clear(scratch.lobe_r, scratch.lobe_g, scratch.lobe_b);
   if (job.round.sum != nullptr) load_sums(job, scratch);
-  if (job.round.active != nullptr && 2 * scratch.place_count <= batch_size)
-    return take_few_places(job, scratch, counts);
+  if (job.round.active != nullptr) return take_active_places(job, scratch, counts);
   int sample = job.first_sample;
   for (const int together : {16, 4})
     for (; job.last_sample - sample >= together; sample += together)

@@ -82,22 +82,23 @@ static void take_rows(const TileJob& job, int begin, int count, int first, int l
     add_rows(job, row, first, scratch.rows_per_place, scratch);
 }
 
-// The samples of few places, as many together as fill a batch.
-static void take_few_places(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
-  const int most = batch_size / scratch.place_count;
-  for (int first = job.first_sample; first < job.last_sample; first += most) {
-    const int last = job.last_sample - first < most ? job.last_sample : first + most;
-    take_rows(job, 0, scratch.place_count, first, last, scratch, counts);
-  }
-}
-
-// Samples first .. last - 1 of all places: of as many pixels at a time as fill a batch.
+// Samples first .. last - 1 of all places: of as many pixels at a time as fill a batch. At most batch_size.
 static void take_side_by_side(const TileJob& job, int first, int last, TileScratch& scratch,
                               TileRayCounts& counts) noexcept {
   const int most = batch_size / (last - first);
   for (int begin = 0; begin < scratch.place_count; begin += most) {
     const int count = scratch.place_count - begin < most ? scratch.place_count - begin : most;
     take_rows(job, begin, count, first, last, scratch, counts);
+  }
+}
+
+// The samples of places that others lie between: of each pixel 16 side by side, or as many as fill a batch
+// where there are few.
+static void take_active_places(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
+  const int fair = batch_size / scratch.place_count, most = fair > 16 ? fair : 16;
+  for (int first = job.first_sample; first < job.last_sample; first += most) {
+    const int last = job.last_sample - first < most ? job.last_sample : first + most;
+    take_side_by_side(job, first, last, scratch, counts);
   }
 }
 
