@@ -2,10 +2,9 @@
 #pragma once
 
 #include "src/film/photon_map.hpp"
+#include "src/film/photon_sampling.hpp"
 
 namespace fastrt {
-
-inline constexpr int photon_radii = 12;
 
 // Which of the radii suits each photon: level 0 is the widest, and each further one is half as wide. It
 // follows from the cells of an octree, of which the smallest counts that still holds some tens of photons.

@@ -21,6 +21,9 @@ inline constexpr float film_most = 1073741824.0F;
 // The cosine between normals below which a photon of a caustic belongs to another surface.
 inline constexpr float same_surface = 0.5F;
 
+// The radii that light is averaged over, each half the one before.
+inline constexpr int photon_radii = 12;
+
 // Around a point photon i is added to sum i modulo this, so that as many are added at once.
 inline constexpr std::uint32_t photon_sums = 16;
 

@@ -65,29 +65,55 @@ FASTRT_INLINE void add_run(const PhotonLevelView& level, std::uint32_t begin, st
   }
 }
 
-[[gnu::noinline]] static void add_level(const PhotonLevelView& level, const SurfaceBatch& s, int i,
-                                        PhotonSums& sums) noexcept {
-  const float p[3] = {s.point_x[i], s.point_y[i], s.point_z[i]};
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(p[axis] >= level.low[axis] - level.radius && p[axis] <= level.high[axis] + level.radius)) return;
-  const PathV point = broadcast3<PathF>(p);
-  const PathV normal = broadcast3<PathF>(s.geometric_x[i], s.geometric_y[i], s.geometric_z[i]);
-  const int x = photon_cell(level, p[0], 0), y = photon_cell(level, p[1], 1), z = photon_cell(level, p[2], 2);
+inline constexpr int no_cell = -2;
+
+// The photons of a level around a cell: runs of those in the rows of cells next to it. Neighbouring surfaces
+// often lie in one cell.
+struct PhotonRuns {
+  int x, y, z; // the cell; x: no_cell before the first
+  int count;
+  std::uint32_t begin[9], end[9];
+};
+
+[[gnu::noinline]] static void find_runs(const PhotonLevelView& level, PhotonRuns& runs) noexcept {
+  const int x = runs.x, y = runs.y, z = runs.z;
+  runs.count = 0;
   for (int row_z = z > 0 ? z - 1 : 0; row_z <= z + 1 && row_z < level.size[2]; ++row_z)
     for (int row_y = y > 0 ? y - 1 : 0; row_y <= y + 1 && row_y < level.size[1]; ++row_y) {
       const std::uint32_t* const row = level.row_begin + static_cast<long>(row_z) * level.size[1] + row_y;
-      if (row[0] == row[1]) continue;
       const std::uint32_t begin = first_from_cell(level, row[0], row[1], x - 1);
-      add_run(level, begin, first_from_cell(level, begin, row[1], x + 2), point, normal, sums);
+      const std::uint32_t end = first_from_cell(level, begin, row[1], x + 2);
+      if (begin == end) continue;
+      runs.begin[runs.count] = begin;
+      runs.end[runs.count++] = end;
     }
 }
 
+// runs: of the level's last surface.
+FASTRT_INLINE void add_level(const PhotonLevelView& level, const SurfaceBatch& s, int i, PhotonRuns& runs,
+                             PhotonSums& sums) {
+  const float p[3] = {s.point_x[i], s.point_y[i], s.point_z[i]};
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(p[axis] >= level.low[axis] - level.radius && p[axis] <= level.high[axis] + level.radius)) return;
+  const int x = photon_cell(level, p[0], 0), y = photon_cell(level, p[1], 1), z = photon_cell(level, p[2], 2);
+  if (x != runs.x || y != runs.y || z != runs.z) {
+    runs.x = x;
+    runs.y = y;
+    runs.z = z;
+    find_runs(level, runs);
+  }
+  if (runs.count == 0) return;
+  const PathV point = broadcast3<PathF>(p);
+  const PathV normal = broadcast3<PathF>(s.geometric_x[i], s.geometric_y[i], s.geometric_z[i]);
+  for (int k = 0; k < runs.count; ++k) add_run(level, runs.begin[k], runs.end[k], point, normal, sums);
+}
+
 // The sums of all levels, added up from the first to the last.
-FASTRT_INLINE void add_up(const PhotonMapView& map, const SurfaceBatch& s, int i, int lane,
+FASTRT_INLINE void add_up(const PhotonMapView& map, const SurfaceBatch& s, int i, int lane, PhotonRuns* runs,
                           float (&light)[3][widest]) {
   PhotonSums sums;
   for (PathV& part : sums.parts) part = broadcast3<PathF>(0.0F, 0.0F, 0.0F);
-  for (int k = 0; k < map.level_count; ++k) add_level(map.levels[k], s, i + lane, sums);
+  for (int k = 0; k < map.level_count; ++k) add_level(map.levels[k], s, i + lane, runs[k], sums);
   alignas(64) float columns[3][photon_sums];
   for (std::uint32_t part = 0; part < photon_sums / widest; ++part)
     store3(sums.parts[part], columns[0] + part * widest, columns[1] + part * widest,
@@ -102,11 +128,13 @@ FASTRT_INLINE void add_up(const PhotonMapView& map, const SurfaceBatch& s, int i
 static void gather_caustics(const TileJob& job, const PathBatch& rays, TileScratch& scratch) noexcept {
   const PhotonMapView& map = *job.caustics;
   SurfaceBatch& s = scratch.surface;
+  PhotonRuns runs[photon_radii];
+  for (int k = 0; k < map.level_count; ++k) runs[k].x = no_cell;
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = s.shaded[i / widest];
     if (bits == 0) continue;
     alignas(64) float sums[3][widest] = {};
-    for (std::uint32_t b = bits; b != 0; b &= b - 1) add_up(map, s, i, __builtin_ctz(b), sums);
+    for (std::uint32_t b = bits; b != 0; b &= b - 1) add_up(map, s, i, __builtin_ctz(b), runs, sums);
     const PathV light = load3<PathF>(sums[0], sums[1], sums[2]);
     for_each_material(job.scene->shading, s.material + i, bits,
                       [&](const MaterialRow& row, const PathM& mask, std::uint32_t) {
