@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/accel/numbered_range.hpp"
 #include "src/accel/parallel.hpp"
 #include "src/accel/reinsertion.hpp"
 #include "src/accel/subtree.hpp"
@@ -6,9 +7,10 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
-#include <cstring>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,7 @@ namespace {
 constexpr std::size_t min_chunk = std::size_t{1} << 12U;
 constexpr std::size_t max_chunks = 64;
 constexpr unsigned count_bits = 16; // of a leaf's primitives; its group goes above them for a while
-static_assert(sizeof(BinaryNode) == sizeof(PrimitiveBox) && block_size * max_leaf_blocks < 1 << count_bits);
+static_assert(block_size * max_leaf_blocks < 1 << count_bits);
 
 // Neighbouring primitives of a range that one task moves. The cuts depend on the primitives alone, not on
 // threads; so does everything that follows.
@@ -33,43 +35,50 @@ struct TopNode {
   std::vector<Chunk> chunks;
   std::unique_ptr<TopNode> children[2];
   GroupedNode node;
-  std::size_t below_count = 0; // nodes below a serial range's root
-  NodeList spilled;            // those, if there are too many for the primitives' place
-  std::uint32_t index = 0;     // of the node in the whole tree
+  std::size_t below_count = 0;  // nodes below a serial range's root
+  std::size_t first_stored = 0; // where the builder keeps these
+  std::uint32_t index = 0;      // of the node in the whole tree
   std::uint32_t first_below = 0;
+};
+
+// A thread's memory for one serial range after the other.
+struct Workbench {
+  Column<PrimitiveBox> boxes = Column<PrimitiveBox>(2 * serial_build_range);
+  NodeList list;
 };
 
 class Builder {
 public:
   Builder(Column<PrimitiveBox>& boxes, const BuildSettings& settings)
-      : boxes_(boxes), other_(boxes.size()), threads_(settings.threads) {
+      : boxes_(boxes), numbers_(2 * boxes.size()), stored_(2 * boxes.size()), threads_(settings.threads) {
     context_.run_log2 = std::countr_zero(static_cast<unsigned>(settings.run_size));
     tree_.order.resize(boxes.size());
-    context_.order = tree_.order.data();
-    context_.buffers[0] = boxes_.data();
-    context_.buffers[1] = other_.data();
+    all_ = {boxes.data(), {numbers_.data(), numbers_.data() + boxes.size()}};
     chunk_size_ = std::max(min_chunk, (boxes.size() + max_chunks - 1) / max_chunks);
   }
 
   BinaryTree build() {
     run_tasks(threads_, failure_, [&] {
-      lists_.resize(static_cast<std::size_t>(omp_get_num_threads()));
+      benches_.resize(static_cast<std::size_t>(omp_get_num_threads()));
       build_root();
     });
-    other_ = {};
-    lists_ = {};
+    boxes_ = {};
+    numbers_ = {};
+    benches_ = {};
     std::uint32_t next = 1;
     place(root_, 0, next);
     tree_.nodes.resize(next);
     tree_.group_of_leaf.resize(next);
     run_tasks(threads_, failure_, [&] { copy(root_); });
-    boxes_ = {};
     return std::move(tree_);
   }
 
 private:
   void build_root() {
     root_.range.end = boxes_.size();
+    for_each_piece(boxes_.size(), chunk_size_, [&](std::size_t begin, std::size_t end) {
+      std::iota(all_.buffers[0] + begin, all_.buffers[0] + end, static_cast<std::uint32_t>(begin));
+    });
     measure_chunks(root_);
     check_groups();
     context_.scale = area_scale(root_.range.bounds);
@@ -93,7 +102,7 @@ private:
     for_each_index(count, [&](std::size_t i) {
       parts[i].begin = top.chunks[i].begin = begin + i * chunk_size_;
       parts[i].end = top.chunks[i].end = std::min(top.range.end, begin + (i + 1) * chunk_size_);
-      measure(context_, parts[i]);
+      measure(all_, parts[i]);
     });
     top.range.bounds = top.range.centroids = LaneBox{};
     top.range.tight = true;
@@ -102,11 +111,7 @@ private:
       top.range.centroids.extend(part.centroids);
     }
     const BinMapping mapping(top.range.centroids);
-    for_each_index(count, [&](std::size_t i) {
-      Chunk& chunk = top.chunks[i];
-      fill_bins(context_.buffers[top.range.buffer] + chunk.begin, chunk.end - chunk.begin, mapping,
-                chunk.bins);
-    });
+    for_each_index(count, [&](std::size_t i) { fill_bins(all_, parts[i], mapping, top.chunks[i].bins); });
   }
 
   void build(TopNode& top) {
@@ -114,11 +119,7 @@ private:
     for (const Chunk& chunk : top.chunks) bins.add(chunk.bins);
     if (top.range.size() <= serial_build_range) {
       top.chunks = {};
-      NodeList& list = lists_[static_cast<std::size_t>(omp_get_thread_num())];
-      list.clear();
-      top.node = build_range(context_, top.range, bins, list);
-      put_away(top, list);
-      return;
+      return build_serially(top, bins);
     }
     for (auto& child : top.children) child = std::make_unique<TopNode>();
     const bool halve = must_halve(top.range.level, top.range.size());
@@ -133,7 +134,7 @@ private:
       move_chunks(top, bins, split);
     } else {
       for (std::uint32_t side = 0; side < 2; ++side) {
-        top.children[side]->range = half_of(context_, top.range, side);
+        top.children[side]->range = half_of(top.range, side);
         measure_chunks(*top.children[side]);
       }
     }
@@ -142,28 +143,32 @@ private:
     for (auto& child : top.children) spawn(failure_, [this, node = child.get()] { build(*node); });
   }
 
-  // Nobody needs the primitives of a finished range any more: its nodes take their place, so that memory does
-  // not grow with the tree.
-  void put_away(TopNode& top, const NodeList& list) {
-    top.below_count = list.nodes.size();
-    if (top.below_count > top.range.size()) {
-      top.spilled = list;
-      return;
-    }
-    for (std::size_t i = 0; i < top.below_count; ++i) {
-      BinaryNode node = list.nodes[i];
-      node.count |= static_cast<std::uint32_t>(list.groups[i]) << count_bits;
-      std::memcpy(static_cast<void*>(boxes_.data() + top.range.begin + i), &node, sizeof(node));
-    }
+  // On a copy of the range's boxes, which stays in the cache.
+  void build_serially(TopNode& top, const Bins& bins) {
+    Workbench& bench = benches_[static_cast<std::size_t>(omp_get_thread_num())];
+    gather(all_, top.range, bench.boxes.data());
+    BuildContext context = context_;
+    context.order = tree_.order.data() + top.range.begin;
+    context.buffers[0] = bench.boxes.data();
+    context.buffers[1] = bench.boxes.data() + serial_build_range;
+    BuildRange range = top.range;
+    range.begin = 0;
+    range.end = top.range.size();
+    range.buffer = 0;
+    bench.list.clear();
+    top.node = build_range(context, range, bins, bench.list);
+    if (top.node.node.count != 0) top.node.node.first += static_cast<std::uint32_t>(top.range.begin);
+    put_away(top, bench.list);
   }
 
-  GroupedNode node_below(const TopNode& top, std::size_t i) const {
-    if (!top.spilled.nodes.empty()) return {top.spilled.nodes[i], top.spilled.groups[i]};
-    GroupedNode made;
-    std::memcpy(&made.node, boxes_.data() + top.range.begin + i, sizeof(made.node));
-    made.group = static_cast<std::uint8_t>(made.node.count >> count_bits);
-    made.node.count &= (1U << count_bits) - 1U;
-    return made;
+  // Until it is known where they belong.
+  void put_away(TopNode& top, const NodeList& list) {
+    top.below_count = list.nodes.size();
+    top.first_stored = next_stored_.fetch_add(top.below_count, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < top.below_count; ++i) {
+      BinaryNode& node = stored_[top.first_stored + i] = list.nodes[i];
+      node.count |= static_cast<std::uint32_t>(list.groups[i]) << count_bits;
+    }
   }
 
   void move_chunks(TopNode& top, const Bins& bins, const BinSplit& split) {
@@ -182,7 +187,7 @@ private:
     }
     for_each_index(count, [&](std::size_t i) {
       Bins* const both[2] = {&moved[0][i].bins, &moved[1][i].bins};
-      move_to_sides(context_, top.range, top.chunks[i].begin, top.chunks[i].end, split, sides_of[i], both);
+      move_to_sides(all_, top.range, top.chunks[i].begin, top.chunks[i].end, split, sides_of[i], both);
     });
     for (std::size_t side = 0; side < 2; ++side) {
       top.children[side]->range = sides.ranges[side];
@@ -223,18 +228,22 @@ private:
     for (const auto& child : top.children)
       if (child) spawn(failure_, [this, node = child.get()] { copy(*node); });
     for (std::size_t i = 0; i < top.below_count; ++i) {
-      GroupedNode made = node_below(top, i);
-      if (made.node.count == 0) made.node.first += top.first_below;
-      tree_.nodes[top.first_below + i] = made.node;
-      tree_.group_of_leaf[top.first_below + i] = made.group;
+      BinaryNode node = stored_[top.first_stored + i];
+      tree_.group_of_leaf[top.first_below + i] = static_cast<std::uint8_t>(node.count >> count_bits);
+      node.count &= (1U << count_bits) - 1U;
+      node.first += node.count == 0 ? top.first_below : static_cast<std::uint32_t>(top.range.begin);
+      tree_.nodes[top.first_below + i] = node;
     }
   }
 
   Column<PrimitiveBox>& boxes_;
-  Column<PrimitiveBox> other_;
-  std::vector<NodeList> lists_; // of each thread, for one serial range after the other
+  Column<std::uint32_t> numbers_;
+  Column<BinaryNode> stored_; // nodes below serial ranges; there are never as many as fit in
+  std::atomic<std::size_t> next_stored_{0};
+  std::vector<Workbench> benches_; // of each thread
   int threads_;
   std::size_t chunk_size_;
+  NumberedBoxes all_;
   BuildContext context_;
   BinaryTree tree_;
   TopNode root_;

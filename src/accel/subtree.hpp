@@ -10,9 +10,9 @@
 
 namespace fastrt {
 
-// The same for the whole tree.
+// The same for all of a subtree.
 struct BuildContext {
-  std::uint32_t* order;     // where leaves put their primitives' ids, as long as the input
+  std::uint32_t* order;     // where leaves put their primitives' ids, as long as a buffer
   PrimitiveBox* buffers[2]; // primitives travel between the two, one way per level
   __m128 scale;             // of areas
   bool one_group;           // all primitives are of one group
@@ -99,12 +99,8 @@ GroupedNode build_range(const BuildContext& context, const BuildRange& range, co
 // When so few bins of the best axis are in use, the centroids lie closer together than was thought.
 inline constexpr int few_bins = bin_count / 4;
 
-// Sets the exact bounds of the range's primitives and of their centroids.
-void measure(const BuildContext& context, BuildRange& range);
-void fill_bins(const PrimitiveBox* boxes, std::size_t count, const BinMapping& mapping, Bins& bins);
-
-// The first or second half of a range, measured.
-BuildRange half_of(const BuildContext& context, const BuildRange& range, std::uint32_t side);
+// The first or second half of a range; its bounds are still those of the whole.
+BuildRange half_of(const BuildRange& range, std::uint32_t side);
 
 // How the two sides of a split go on.
 struct SplitSides {
@@ -115,10 +111,5 @@ struct SplitSides {
 
 // The ranges on both sides of a plane between the bins of `range`.
 SplitSides split_sides(const BuildRange& range, const Bins& bins, const BinSplit& split);
-
-// Moves primitives begin .. end - 1 of the range to the other buffer, each to its side, keeping their order,
-// and puts them into the side's bins at the same time.
-void move_to_sides(const BuildContext& context, const BuildRange& range, std::size_t begin, std::size_t end,
-                   const BinSplit& split, SplitSides& sides, Bins* const bins[2]);
 
 } // namespace fastrt

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/accel/check_tree.hpp"
+#include "src/accel/numbered_range.hpp"
 #include "src/accel/parallel.hpp"
 #include "src/accel/subtree.hpp"
 #include "src/accel/tree.hpp"
@@ -14,7 +15,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace fastrt {
 namespace {
@@ -110,9 +113,12 @@ TEST(Build, halves_when_few_levels_are_left) {
       BuildRange range;
       range.end = count;
       range.level = max_tree_depth - spare - static_cast<int>(std::bit_width(count - 1));
-      measure(context, range);
+      std::vector<std::uint32_t> numbers(count);
+      std::iota(numbers.begin(), numbers.end(), 0U);
+      const NumberedBoxes all{boxes.data(), {numbers.data(), nullptr}};
+      measure(all, range);
       Bins bins;
-      fill_bins(boxes.data(), count, BinMapping(range.centroids), bins);
+      fill_bins(all, range, BinMapping(range.centroids), bins);
       NodeList list;
       const GroupedNode root = build_range(context, range, bins, list);
       EXPECT_LE(range.level - 1 + depth_below(list, root.node), max_tree_depth) << count << ' ' << spare;
