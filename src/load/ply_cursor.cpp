@@ -10,16 +10,23 @@
 
 namespace fastrt {
 
+namespace {
+
+// Lines end with "\n", "\r\n" or "\r"; a "\r" at the end of the file ends none. There is a byte behind the
+// last.
+bool ends_line(const char* p, const char* end) {
+  return (*p == '\n') | ((*p == '\r') & (p + 1 < end) & (p[1] != '\n'));
+}
+
+} // namespace
+
 std::string PlyCursor::place_of(const char* place) const {
   if (format_ != PlyFormat::ascii) return name_ + ": byte " + std::to_string(place - begin_) + ": ";
-  std::size_t line = 1;
-  const char* start = begin_;
-  for (const char* p = begin_; p < place; ++p) {
-    const bool ends = *p == '\n' || (*p == '\r' && p + 1 < end_ && p[1] != '\n');
-    line += ends ? 1 : 0;
-    if (ends) start = p + 1;
-  }
-  return name_ + ':' + std::to_string(line) + ':' + std::to_string(place - start + 1) + ": ";
+  if (place < counted_) counted_ = begin_, lines_ = 0;
+  for (; counted_ < place; ++counted_) lines_ += ends_line(counted_, end_) ? 1U : 0U;
+  const char* start = place;
+  while (start != begin_ && !ends_line(start - 1, end_)) --start;
+  return name_ + ':' + std::to_string(lines_ + 1) + ':' + std::to_string(place - start + 1) + ": ";
 }
 
 void PlyCursor::fail_at(const char* place, const std::string& message) const {

@@ -18,7 +18,8 @@ public:
   static constexpr std::size_t padding = 16;
 
   PlyCursor(std::string_view bytes, std::size_t begin, PlyFormat format, const std::string& name)
-      : begin_(bytes.data()), p_(begin_ + begin), end_(begin_ + bytes.size()), format_(format), name_(name) {}
+      : begin_(bytes.data()), p_(begin_ + begin), end_(begin_ + bytes.size()), format_(format), name_(name),
+        counted_(begin_) {}
 
   // All throw InputError where the file ends or holds something else.
   float number(PlyType type) { return format_ == PlyFormat::ascii ? text_number() : binary_number(type); }
@@ -109,6 +110,9 @@ private:
   const char* end_;
   PlyFormat format_;
   const std::string& name_;
+  // Lines that end before counted_: places are mostly asked for one after the other.
+  mutable const char* counted_;
+  mutable std::size_t lines_ = 0;
 };
 
 } // namespace fastrt
