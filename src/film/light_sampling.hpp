@@ -39,17 +39,27 @@ struct LightBits {
 
 // Point `index` of `count` of a Hammersley set, so that every row and column of a count-fold grid holds one.
 [[gnu::always_inline]] static inline LightBits hammersley_point(std::uint32_t index, std::uint32_t count) {
-  const auto stratum = static_cast<std::uint32_t>((static_cast<std::uint64_t>(index) << 32U) / count);
-  return {stratum, reverse_bits(index)};
+  const auto stratum = static_cast<std::uint32_t>((std::uint64_t{1} << 32U) / count);
+  return {index * stratum, reverse_bits(index)};
 }
 
-// The sample: the point, shifted at random (Cranley & Patterson 1976).
-[[gnu::always_inline]] static inline LightBits shifted(const LightBits& point, const LightBits& key) {
+// Which stratum of `count` the key shifts the first of them into.
+[[gnu::always_inline]] static inline std::uint32_t first_stratum(std::uint32_t key, std::uint32_t count) {
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(key) * count) >> 32U);
+}
+
+// Sample `index`: the set's points are shifted at random (Cranley & Patterson 1976), and numbered by the
+// strata that they come to lie in. So samples of one number lie near each other on the light, whoever asks.
+[[gnu::always_inline]] static inline LightBits light_sample(std::uint32_t index, std::uint32_t count,
+                                                            const LightBits& key, std::uint32_t first) {
+  const std::uint32_t back = index - first; // below 0: from the other end
+  const LightBits point = hammersley_point(index < first ? back + count : back, count);
   return {point.u + key.u, point.v + key.v};
 }
 [[gnu::always_inline]] static inline LightBits light_bits(const LightQuestion& question, std::uint32_t index,
                                                           std::uint32_t count) {
-  return shifted(hammersley_point(index, count), light_key(question));
+  const LightBits key = light_key(question);
+  return light_sample(index, count, key, first_stratum(key.u, count));
 }
 
 // The place of a sample on a light of a shape that is not a mesh. (No branches but on the shape.)

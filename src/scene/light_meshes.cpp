@@ -74,15 +74,55 @@ std::vector<double> gather_triangles(const SceneDesc& desc, std::uint32_t materi
   return emitters.areas;
 }
 
+// Two zeros after each of the ten lowest bits.
+std::uint32_t spread_bits(std::uint32_t x) {
+  x = (x | x << 16U) & 0x030000FFU;
+  x = (x | x << 8U) & 0x0300F00FU;
+  x = (x | x << 4U) & 0x030C30C3U;
+  return (x | x << 2U) & 0x09249249U;
+}
+
+// Along Morton's curve: so that points that are chosen by numbers near each other lie near each other, and
+// the shadow rays to them have much in common.
+void put_in_order(LightMesh& mesh, std::vector<double>& areas) {
+  const auto centroid = [](const EmitterTriangle& t) {
+    return Vec3((Vec3d(t.a) + Vec3d(t.b) + Vec3d(t.c)) / 3.0);
+  };
+  Aabb bounds;
+  for (const EmitterTriangle& triangle : mesh.triangles) bounds.extend(centroid(triangle));
+  const Vec3 extent = bounds.extent();
+  const float side = std::max(extent.x, std::max(extent.y, extent.z));
+  const float scale = side > 0.0F ? 1023.0F / side : 0.0F;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> places; // on the curve, and in the mesh
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vec3 at = (centroid(mesh.triangles[i]) - bounds.lower) * scale;
+    const auto bits = [](float x) {
+      return spread_bits(static_cast<std::uint32_t>(x > 0.0F ? std::min(x, 1023.0F) : 0.0F));
+    };
+    places.emplace_back(bits(at.x) | bits(at.y) << 1U | bits(at.z) << 2U, static_cast<std::uint32_t>(i));
+  }
+  std::sort(places.begin(), places.end());
+  const std::vector<EmitterTriangle> triangles = std::move(mesh.triangles);
+  const std::vector<double> old_areas = std::move(areas);
+  mesh.triangles.clear();
+  areas.clear();
+  for (const auto& [code, i] : places) {
+    mesh.triangles.push_back(triangles[i]);
+    areas.push_back(old_areas[i]);
+  }
+}
+
 LightMesh mesh_of(const SceneDesc& desc, std::size_t light_index) {
   const Light& light = desc.lights[light_index];
   LightMesh mesh;
   if (light.kind != LightKind::mesh) return mesh;
   const Material& material = desc.materials[light.material];
-  const std::vector<double> areas = gather_triangles(desc, light.material, mesh);
+  std::vector<double> areas = gather_triangles(desc, light.material, mesh);
   if (areas.empty())
     throw InputError("light " + std::to_string(light_index) + ": no triangle has the material '" +
                      printable(material.name) + "'");
+  const EmitterTriangle first = mesh.triangles.front();
+  put_in_order(mesh, areas);
   double total = 0.0;
   for (const double area : areas) total += area;
   double before = 0.0;
@@ -92,7 +132,6 @@ LightMesh mesh_of(const SceneDesc& desc, std::size_t light_index) {
   }
   mesh.radiance = material.emission * light.intensity;
   mesh.area_over_pi = static_cast<float>(total / std::numbers::pi);
-  const EmitterTriangle& first = mesh.triangles.front();
   mesh.middle = Vec3((Vec3d(first.a) + Vec3d(first.b) + Vec3d(first.c)) / 3.0);
   return mesh;
 }

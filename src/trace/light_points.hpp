@@ -31,24 +31,32 @@ FASTRT_INLINE LightQuestion question_of(const TileJob& job, const PathBatch& ray
           job.seed};
 }
 
-// What shifts the samples of light k, ray by ray: the same for all of them.
+// What shifts the samples of light k, ray by ray, and numbers them: the same for all of them.
 static void find_light_keys(const TileJob& job, const PathBatch& rays, std::uint32_t k,
                             const TileScratch& scratch, LightBatch& out) noexcept {
   for (int i = 0; i < rays.count; ++i) {
     const LightBits key = light_key(question_of(job, rays, k, i, scratch));
     out.key_u[i] = key.u;
     out.key_v[i] = key.v;
+    out.first[i] = first_stratum(key.u, static_cast<std::uint32_t>(job.light_samples));
   }
+}
+
+struct SampleNumber {
+  std::uint32_t index, count;
+};
+FASTRT_INLINE LightBits bits_of(const SampleNumber& number, const LightBatch& keys, int i) {
+  return light_sample(number.index, number.count, {keys.key_u[i], keys.key_v[i]}, keys.first[i]);
 }
 
 // One sample of each of the first `count` rays, on a light of a shape that is not a mesh. (A loop that
 // compilers make SIMD of.)
 template <LightShape shape>
-static void place_on_shape(const LightRow& light, const LightBits& point, int count,
+static void place_on_shape(const LightRow& light, const SampleNumber& number, int count,
                            LightBatch& out) noexcept {
   const LightRow row = light; // which no store to `out` can change
   for (int i = 0; i < count; ++i) {
-    const LightPlace place = light_place(shape, shifted(point, {out.key_u[i], out.key_v[i]}));
+    const LightPlace place = light_place(shape, bits_of(number, out, i));
     const auto at = [&](int axis) {
       return ((row.position[axis] + row.half_axes[0][axis] * place.x) + row.half_axes[1][axis] * place.y) +
              row.half_axes[2][axis] * place.z;
@@ -59,13 +67,12 @@ static void place_on_shape(const LightRow& light, const LightBits& point, int co
   }
 }
 
-static void place_on_mesh(const LightRow& light, const LightBits& point, int count,
+static void place_on_mesh(const LightRow& light, const SampleNumber& number, int count,
                           LightBatch& out) noexcept {
   float* const positions[3] = {out.position_x, out.position_y, out.position_z};
   float* const normals[3] = {out.normal_x, out.normal_y, out.normal_z};
   for (int i = 0; i < count; ++i) {
-    const MeshPlace place =
-        mesh_place(light.emitter_begin, light.emitter_count, shifted(point, {out.key_u[i], out.key_v[i]}));
+    const MeshPlace place = mesh_place(light.emitter_begin, light.emitter_count, bits_of(number, out, i));
     const EmitterRow& triangle = light.emitters[place.triangle];
     for (int axis = 0; axis < 3; ++axis) {
       positions[axis][i] = (triangle.corners[0][axis] * place.a + triangle.corners[1][axis] * place.b) +
@@ -77,17 +84,16 @@ static void place_on_mesh(const LightRow& light, const LightBits& point, int cou
 
 // The points of a light with a size that sample `index` of `count` asks, after find_light_keys().
 static void place_light(const LightRow& light, int index, int count, int rays, LightBatch& out) noexcept {
-  const LightBits point =
-      hammersley_point(static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count));
+  const SampleNumber number{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count)};
   switch (static_cast<LightShape>(light.shape)) {
   case LightShape::mesh:
-    return place_on_mesh(light, point, rays, out);
+    return place_on_mesh(light, number, rays, out);
   case LightShape::rectangle:
-    return place_on_shape<LightShape::rectangle>(light, point, rays, out);
+    return place_on_shape<LightShape::rectangle>(light, number, rays, out);
   case LightShape::disk:
-    return place_on_shape<LightShape::disk>(light, point, rays, out);
+    return place_on_shape<LightShape::disk>(light, number, rays, out);
   default:
-    return place_on_shape<LightShape::sphere>(light, point, rays, out);
+    return place_on_shape<LightShape::sphere>(light, number, rays, out);
   }
 }
 

@@ -178,13 +178,9 @@ static void record_shadows(const PathBatch& rays, const std::uint32_t* lit, cons
   }
 }
 
-// Points of a mesh of more triangles than this lie all around it, and shadow rays from them cross.
-inline constexpr std::uint32_t scattered_emitters = 16;
-
 // What reflected and refracted rays see is scattered: as one tile, each shadow ray would be shown what all
 // the others need, so those are tiles only where they happen to be dense.
 FASTRT_INLINE BatchShape shadow_shape(const LightRow& light, int depth) {
-  if (light.emitter_count > scattered_emitters) return BatchShape::any;
   if (light.shape != 0) return BatchShape::coherent;
   if (depth != 0)
     return light.directional != 0 ? BatchShape::scattered_parallel : BatchShape::scattered_origin;

@@ -52,7 +52,8 @@ struct alignas(64) LightBatch {
   float to_light_x[batch_size], to_light_y[batch_size], to_light_z[batch_size];
   float cosine[batch_size];
   float strength[batch_size];                         // of lights whose strength varies
-  std::uint32_t key_u[batch_size], key_v[batch_size]; // of lights with a size: what shifts their samples
+  std::uint32_t key_u[batch_size], key_v[batch_size], // of lights with a size: what shifts their samples,
+      first[batch_size];                              // and the stratum that the first of them comes into
   float position_x[batch_size], position_y[batch_size],
       position_z[batch_size]; // of lights with a size: the point asked
   float normal_x[batch_size], normal_y[batch_size], normal_z[batch_size];    // of meshes: there
