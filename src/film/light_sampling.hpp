@@ -82,23 +82,32 @@ struct MeshPlace {
   float a, b, c;
 };
 
-// The place of a sample on `triangles` triangles, of which number i is chosen by the numbers from begin[i] up
-// to begin[i + 1]. What is left of the number that chose the triangle is spread out again and says where in
-// it, so that strata of the mesh are strata of each triangle.
-[[gnu::always_inline]] static inline MeshPlace mesh_place(const std::uint32_t* begin, std::uint32_t triangles,
-                                                          const LightBits& bits) {
-  // The last one that begins at u or before. (Which half it is in can't be foreseen: no branch asks.)
+// How 2^32 numbers choose among a mesh's triangles: number i by those from begin[i] up to begin[i + 1].
+// scale[i]: 2 divided by how many these are.
+struct MeshShares {
+  const std::uint32_t* begin;
+  const float* scale;
+  std::uint32_t count;
+};
+
+// The last triangle that begins at u or before. (Which half it is in can't be foreseen: no branch asks.)
+[[gnu::always_inline]] static inline std::uint32_t choose_triangle(const MeshShares& mesh, std::uint32_t u) {
   std::uint32_t chosen = 0;
-  for (std::uint32_t count = triangles; count > 1;) {
+  for (std::uint32_t count = mesh.count; count > 1;) {
     const std::uint32_t half = count / 2;
-    chosen += begin[chosen + half] <= bits.u ? half : 0U;
+    chosen += mesh.begin[chosen + half] <= u ? half : 0U;
     count -= half;
   }
-  const std::uint64_t all = std::uint64_t{1} << 32U;
-  const std::uint64_t share = (chosen + 1 < triangles ? begin[chosen + 1] : all) - begin[chosen];
-  const auto rest =
-      static_cast<std::uint32_t>((static_cast<std::uint64_t>(bits.u - begin[chosen]) << 32U) / share);
-  const float root = __builtin_sqrtf(static_cast<float>(static_cast<std::int32_t>(rest >> 8U)) * 0x1p-24F);
+  return chosen;
+}
+
+// The place of a sample on a mesh. What is left of the number that chose the triangle is spread out again and
+// says where in it, so that strata of the mesh are strata of each triangle.
+[[gnu::always_inline]] static inline MeshPlace mesh_place(const MeshShares& mesh, const LightBits& bits) {
+  const std::uint32_t chosen = choose_triangle(mesh, bits.u);
+  const std::uint32_t left = (bits.u - mesh.begin[chosen]) >> 1U;
+  const float rest = static_cast<float>(static_cast<std::int32_t>(left)) * mesh.scale[chosen];
+  const float root = __builtin_sqrtf(rest < 1.0F ? rest : 1.0F);
   const float along = static_cast<float>(static_cast<std::int32_t>(bits.v >> 8U)) * 0x1p-24F;
   return {chosen, 1.0F - root, root * (1.0F - along), root * along};
 }

@@ -112,11 +112,10 @@ enum class PhotonTurn : std::uint32_t { reflected = 1, refracted = 2, scattered 
   return light_place(shape, light_bits(start_question(index, light, seed), 0, 1));
 }
 
-// Where on a mesh; begin and triangles as in mesh_place().
-[[gnu::always_inline]] static inline MeshPlace photon_mesh_start(const std::uint32_t* begin,
-                                                                 std::uint32_t triangles, std::uint32_t index,
+// Where on a mesh.
+[[gnu::always_inline]] static inline MeshPlace photon_mesh_start(const MeshShares& mesh, std::uint32_t index,
                                                                  std::uint32_t light, std::uint32_t seed) {
-  return mesh_place(begin, triangles, light_bits(start_question(index, light, seed), 0, 1));
+  return mesh_place(mesh, light_bits(start_question(index, light, seed), 0, 1));
 }
 
 } // namespace fastrt

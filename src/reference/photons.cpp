@@ -38,8 +38,7 @@ Vec3 turned_to(const Vec3& n, const LightPlace& d) {
 // A ray off one of the mesh's triangles, to either side.
 Ray start_on_mesh(const LightMesh& mesh, const PhotonLight& row, const SampleOffset& place,
                   std::uint32_t index, std::uint32_t seed) {
-  const MeshPlace start = photon_mesh_start(
-      mesh.begin.data(), static_cast<std::uint32_t>(mesh.triangles.size()), index, row.light, seed);
+  const MeshPlace start = photon_mesh_start(shares_of(mesh), index, row.light, seed);
   const EmitterTriangle& triangle = mesh.triangles[start.triangle];
   const LightPlace way = matt_direction(place);
   const Vec3 towards = std::copysign(1.0F, way.z) * triangle.normal;

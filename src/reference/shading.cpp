@@ -103,8 +103,7 @@ LightPoint point_of(const Light& light, const LightMesh& mesh, const LightQuesti
   point.share = 1.0F / static_cast<float>(count);
   const LightBits bits = light_bits(question, index, count);
   if (light.kind == LightKind::mesh) {
-    const MeshPlace place =
-        mesh_place(mesh.begin.data(), static_cast<std::uint32_t>(mesh.triangles.size()), bits);
+    const MeshPlace place = mesh_place(shares_of(mesh), bits);
     const EmitterTriangle& triangle = mesh.triangles[place.triangle];
     point.mesh = &mesh;
     point.normal = triangle.normal;

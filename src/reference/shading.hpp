@@ -6,6 +6,7 @@
 #include "src/reference/hit_finder.hpp"
 #include "src/reference/media.hpp"
 #include "src/reference/surface.hpp"
+#include "src/scene/light_meshes.hpp"
 
 #include <fastrt/render.hpp>
 #include <fastrt/scene.hpp>
@@ -28,6 +29,10 @@ bool is_transmissive(const Material& material);
 // normal.
 Vec3 phong_model(const Material& material, const Finish& finish, const Surface& surface, const Vec3& to_light,
                  float cos_n);
+
+inline MeshShares shares_of(const LightMesh& mesh) {
+  return {mesh.begin.data(), mesh.scale.data(), static_cast<std::uint32_t>(mesh.triangles.size())};
+}
 
 // Which points of lights with a size are asked, and what shadow rays start in.
 struct LightSampling {

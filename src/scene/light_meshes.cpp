@@ -130,6 +130,11 @@ LightMesh mesh_of(const SceneDesc& desc, std::size_t light_index) {
     mesh.begin.push_back(static_cast<std::uint32_t>(std::min(before / total * 0x1p32, 4294967295.0)));
     before += area;
   }
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const double end = i + 1 < areas.size() ? mesh.begin[i + 1] : 0x1p32;
+    mesh.scale.push_back(
+        static_cast<float>(2.0 / std::max(end - mesh.begin[i], 1.0))); // none chooses it: any
+  }
   mesh.radiance = material.emission * light.intensity;
   mesh.area_over_pi = static_cast<float>(total / std::numbers::pi);
   mesh.middle = Vec3((Vec3d(first.a) + Vec3d(first.b) + Vec3d(first.c)) / 3.0);
@@ -141,7 +146,8 @@ LightMesh mesh_of(const SceneDesc& desc, std::size_t light_index) {
 std::size_t LightMeshes::bytes() const noexcept {
   std::size_t sum = 0;
   for (const LightMesh& mesh : lights)
-    sum += mesh.triangles.size() * sizeof(EmitterTriangle) + mesh.begin.size() * sizeof(std::uint32_t);
+    sum += mesh.triangles.size() * sizeof(EmitterTriangle) +
+           mesh.begin.size() * (sizeof(std::uint32_t) + sizeof(float));
   return sum;
 }
 

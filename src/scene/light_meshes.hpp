@@ -16,10 +16,11 @@ struct EmitterTriangle {
 };
 
 // What a light of LightKind::mesh is made of. Triangle i is chosen by the numbers from begin[i] up to the
-// next one's, or to 2^32: as many of the 2^32 as it has of the area.
+// next one's, or to 2^32: as many of the 2^32 as it has of the area. begin and scale: of MeshShares.
 struct LightMesh {
   std::vector<EmitterTriangle> triangles; // none of lights of other kinds
   std::vector<std::uint32_t> begin;
+  std::vector<float> scale;
   Vec3 radiance{0.0F}; // of its points: Ke times the light's intensity
   float area_over_pi = 0;
   float magnitude = 0; // the largest |coordinate| of a corner

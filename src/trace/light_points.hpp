@@ -3,10 +3,9 @@
 // "Shading").
 #pragma once
 
-#include "src/film/light_sampling.hpp"
 #include "src/kernels/vec3.hpp"
 #include "src/simd/shared_math.hpp"
-#include "src/trace/surface_lanes.hpp"
+#include "src/trace/mesh_points.hpp"
 #include "src/trace/tile_places.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -34,19 +33,14 @@ FASTRT_INLINE LightQuestion question_of(const TileJob& job, const PathBatch& ray
 // What shifts the samples of light k, ray by ray, and numbers them: the same for all of them.
 static void find_light_keys(const TileJob& job, const PathBatch& rays, std::uint32_t k,
                             const TileScratch& scratch, LightBatch& out) noexcept {
-  for (int i = 0; i < rays.count; ++i) {
+  int i = 0;
+  for (; i < rays.count; ++i) {
     const LightBits key = light_key(question_of(job, rays, k, i, scratch));
     out.key_u[i] = key.u;
     out.key_v[i] = key.v;
     out.first[i] = first_stratum(key.u, static_cast<std::uint32_t>(job.light_samples));
   }
-}
-
-struct SampleNumber {
-  std::uint32_t index, count;
-};
-FASTRT_INLINE LightBits bits_of(const SampleNumber& number, const LightBatch& keys, int i) {
-  return light_sample(number.index, number.count, {keys.key_u[i], keys.key_v[i]}, keys.first[i]);
+  for (; i % widest != 0; ++i) out.key_u[i] = out.key_v[i] = out.first[i] = 0;
 }
 
 // One sample of each of the first `count` rays, on a light of a shape that is not a mesh. (A loop that
@@ -64,21 +58,6 @@ static void place_on_shape(const LightRow& light, const SampleNumber& number, in
     out.position_x[i] = at(0);
     out.position_y[i] = at(1);
     out.position_z[i] = at(2);
-  }
-}
-
-static void place_on_mesh(const LightRow& light, const SampleNumber& number, int count,
-                          LightBatch& out) noexcept {
-  float* const positions[3] = {out.position_x, out.position_y, out.position_z};
-  float* const normals[3] = {out.normal_x, out.normal_y, out.normal_z};
-  for (int i = 0; i < count; ++i) {
-    const MeshPlace place = mesh_place(light.emitter_begin, light.emitter_count, bits_of(number, out, i));
-    const EmitterRow& triangle = light.emitters[place.triangle];
-    for (int axis = 0; axis < 3; ++axis) {
-      positions[axis][i] = (triangle.corners[0][axis] * place.a + triangle.corners[1][axis] * place.b) +
-                           triangle.corners[2][axis] * place.c;
-      normals[axis][i] = triangle.normal[axis];
-    }
   }
 }
 

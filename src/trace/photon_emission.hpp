@@ -58,8 +58,7 @@ FASTRT_INLINE void start_at_point(const PhotonJob& job, const LightRow& light, c
 // Off one of a mesh's triangles, to either side.
 FASTRT_INLINE void start_on_mesh(const PhotonJob& job, const LightRow& light, const SampleOffset& place,
                                  int i, PhotonBatch& rays) {
-  const MeshPlace start = photon_mesh_start(light.emitter_begin, light.emitter_count, rays.index[i],
-                                            job.emission.light, job.seed);
+  const MeshPlace start = photon_mesh_start(shares_of(light), rays.index[i], job.emission.light, job.seed);
   const EmitterRow& triangle = light.emitters[start.triangle];
   const float* const n = triangle.normal;
   const LightPlace way = matt_direction(place);

@@ -39,10 +39,11 @@ MaterialRow row_of(const Material& material) {
 
 EmitterRow row_of(const EmitterTriangle& triangle) {
   EmitterRow row{};
-  copy(triangle.a, row.corners[0]);
-  copy(triangle.b, row.corners[1]);
-  copy(triangle.c, row.corners[2]);
-  copy(triangle.normal, row.normal);
+  const Vec3* const corners[] = {&triangle.a, &triangle.b, &triangle.c};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 3; ++i) row.corners[i][axis] = (*corners[i])[axis];
+    row.normal[axis] = triangle.normal[axis];
+  }
   return row;
 }
 
@@ -53,6 +54,7 @@ void fill_mesh(const LightMesh& mesh, const EmitterRow* emitters, LightRow& row)
   row.area_over_pi = mesh.area_over_pi;
   row.emitters = emitters;
   row.emitter_begin = mesh.begin.data();
+  row.emitter_scale = mesh.scale.data();
   row.emitter_count = static_cast<std::uint32_t>(mesh.triangles.size());
 }
 

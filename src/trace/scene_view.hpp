@@ -120,10 +120,10 @@ struct MaterialRow {
   std::uint32_t passes_light;      // straight through, to what it would shadow
 };
 
-// A triangle of a light that is a mesh.
-struct EmitterRow {
-  float corners[3][3]; // xyz of each
-  float normal[3];     // unit, on either side
+// A triangle of a light that is a mesh. The fourth numbers are 0.
+struct alignas(16) EmitterRow {
+  float corners[3][4]; // xyz of each
+  float normal[4];     // unit, on either side
 };
 
 struct LightRow {
@@ -142,6 +142,7 @@ struct LightRow {
   float half_axes[3][3];                       // of lights with a size
   const EmitterRow* emitters;                  // meshes
   const std::uint32_t* emitter_begin;          // LightMesh::begin
+  const float* emitter_scale;                  // LightMesh::scale
   std::uint32_t emitter_count;
   float area_over_pi;
   std::int32_t media[max_media]; // that its place is in, innermost first; -1: none. Of scenes that absorb.

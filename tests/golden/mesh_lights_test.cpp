@@ -100,6 +100,22 @@ TEST_P(UnderALamp, AreasCountAndNotTriangles) {
   expect(6e-3, [](const DVec3& p) { return rectangle_factor(p, -1, 1, -1, 1, 2); });
 }
 
+// Triangles are put in an order of their own: that of the file has no say.
+TEST_P(UnderALamp, OrderOfTrianglesDoesNotMatter) {
+  const auto picture = [&](bool backwards) {
+    SceneBuilder builder = builder_;
+    const Mesh ball = placed(icosphere(2), 0.5F, {0, 2, 0});
+    std::vector<std::uint32_t> indices = ball.indices;
+    for (std::size_t i = 0; backwards && i < indices.size(); ++i)
+      indices[i] = ball.indices[ball.indices.size() - 3 - i / 3 * 3 + i % 3];
+    builder.add_mesh(ball.positions, indices, shining_);
+    builder.add_light(lamp(shining_));
+    settings_.light_samples = 4;
+    return render(builder, below, settings_);
+  };
+  EXPECT_TRUE(picture(false).rgb == picture(true).rgb);
+}
+
 // A half plane half way up hides what lies beyond the line that it draws on the square.
 TEST_P(UnderALamp, SoftShadow) {
   add_quad(builder_, {-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, shining_);

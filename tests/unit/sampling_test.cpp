@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/film/filter_table.hpp"
+#include "src/film/light_sampling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,29 @@ TEST(LensPoints, FillTheDiskEvenlyAndIndependently) {
   EXPECT_NEAR(y, 0, 0.02);
   EXPECT_NEAR(inner, 0.5, 0.02);
   EXPECT_NEAR(with_pixel, 0, 0.01);
+}
+
+// One in each part of the light, in order, whoever asks: shadow rays of one number have much in common.
+TEST(LightSamples, AreNumberedByTheirPlaceOnTheLight) {
+  for (const std::uint32_t count : {1U, 2U, 7U, 16U, 1000U})
+    for (std::uint32_t x = 0; x < 50; ++x)
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const LightBits bits = light_bits({x, 3, 1, 0, 2, 9}, i, count);
+        const double place = bits.u * 0x1p-32 * count;
+        EXPECT_GE(place, i - 1e-3) << count;
+        EXPECT_LE(place, i + 1 + 1e-3) << count;
+      }
+}
+
+TEST(LightSamples, AreShiftedAtRandom) {
+  std::set<std::uint32_t> along, across;
+  for (std::uint32_t x = 0; x < 50; ++x) {
+    const LightBits bits = light_bits({x, 3, 1, 0, 2, 9}, 5, 16);
+    along.insert(bits.u);
+    across.insert(bits.v >> 28U);
+  }
+  EXPECT_EQ(along.size(), 50U);
+  EXPECT_GE(across.size(), 13U);
 }
 
 } // namespace
