@@ -72,7 +72,7 @@ struct LightBits {
   // The disk to the sphere, areas to areas (Lambert's map).
   const float r2 = disk.x * disk.x + disk.y * disk.y;
   const float left = 1.0F - r2;
-  const float scale = 2.0F * __builtin_sqrtf(left > 0.0F ? left : 0.0F);
+  const float scale = 2.0F * __builtin_sqrtf(pick(left > 0.0F, left, 0.0F));
   return {disk.x * scale, disk.y * scale, 1.0F - 2.0F * r2};
 }
 

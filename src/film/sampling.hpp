@@ -26,9 +26,18 @@ namespace fastrt {
   return (x & 0xAAAAAAAAU) >> 1U | (x & 0x55555555U) << 1U;
 }
 
+// One of two numbers that are both computed: of loops with branches compilers make no SIMD.
+[[gnu::always_inline]] static inline float pick(bool first, float a, float b) {
+  const std::uint32_t mask = 0U - static_cast<std::uint32_t>(first);
+  return __builtin_bit_cast(float, (__builtin_bit_cast(std::uint32_t, a) & mask) |
+                                       (__builtin_bit_cast(std::uint32_t, b) & ~mask));
+}
+
 // The square root is correctly rounded everywhere, so this stays exact.
 [[gnu::always_inline]] static inline float tent_warp(float u) {
-  return u < 0.5F ? __builtin_sqrtf(2.0F * u) - 1.0F : 1.0F - __builtin_sqrtf(2.0F - 2.0F * u);
+  const bool low = u < 0.5F;
+  const float root = __builtin_sqrtf(pick(low, 2.0F * u, 2.0F - 2.0F * u));
+  return pick(low, root - 1.0F, 1.0F - root);
 }
 
 // How samples are spread over a pixel's surroundings so that each counts the same (filter importance
@@ -180,8 +189,8 @@ template <FilterShape shape>
 // degrees by their series.
 [[gnu::always_inline]] static inline SampleOffset disk_point(float a, float b) {
   const bool wide = (a < 0.0F ? -a : a) > (b < 0.0F ? -b : b);
-  const float radius = wide ? a : b;
-  const float angle = 0.785398163F * ((wide ? b : a) / (radius == 0.0F ? 1.0F : radius)); // no 0 / 0
+  const float radius = pick(wide, a, b);
+  const float angle = 0.785398163F * (pick(wide, b, a) / pick(radius == 0.0F, 1.0F, radius)); // no 0 / 0
   const float square = angle * angle;
   const float sine =
       angle * (1.0F + square * (-0.166666667F + square * (0.00833333333F + square * -0.000198412698F)));
@@ -189,7 +198,7 @@ template <FilterShape shape>
       1.0F +
       square * (-0.5F + square * (0.0416666667F + square * (-0.00138888889F + square * 2.48015873e-5F)));
   const float along = radius * cosine, across = radius * sine;
-  return {wide ? along : across, wide ? across : along};
+  return {pick(wide, along, across), pick(wide, across, along)};
 }
 
 // What scrambles a pixel's points on the lens.

@@ -125,16 +125,20 @@ static void place_on_image(const SampleRows& rows, const Filter& filter, std::ui
 }
 
 static void place_on_lens(const SampleRows& rows, std::uint32_t seed, SamplePlaces& to) noexcept {
-  alignas(64) std::uint32_t key[batch_size], u[batch_size], v[batch_size];
+  alignas(64) std::uint32_t key[batch_size], u[batch_size], v[batch_size], bits[batch_size];
   for (int i = 0; i < rows.count; ++i) {
     key[i] = lens_key(rows.x[i], rows.y[i], seed);
-    u[i] = lens_index(rows.index[i], key[i]);
+    bits[i] = u[i] = lens_index(rows.index[i], key[i]);
     v[i] = 0;
   }
-  // sequence_point(), bit by bit for all rows.
+  // sequence_point(), bit by bit for all rows. (Shifts by one: not all registers shift by a number that is
+  // found out as it runs.)
   std::uint32_t column = 1;
-  for (std::uint32_t bit = 0; bit < 32; ++bit, column ^= column << 1U)
-    for (int i = 0; i < rows.count; ++i) v[i] ^= (0U - (u[i] >> bit & 1U)) & column;
+  for (int bit = 0; bit < 32; ++bit, column ^= column << 1U)
+    for (int i = 0; i < rows.count; ++i) {
+      v[i] ^= (0U - (bits[i] & 1U)) & column;
+      bits[i] >>= 1U;
+    }
   for (int i = 0; i < rows.count; ++i) {
     const SampleOffset place = lens_place({u[i], v[i]}, key[i]);
     to.lens_a[i] = place.x;
