@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles lie around which rays of a beam, as seen along the rays: one triangle and a group of rays,
-// or one ray (two where a register holds sixteen lanes) and all triangles of a run.
+// Which triangles of a run lie around which rays of a beam, as seen along the rays: one ray at a time, or two
+// where a register holds sixteen lanes.
 #pragma once
 
 #include "src/kernels/beam_culling.hpp"
@@ -35,12 +35,6 @@ FASTRT_INLINE FrameTriangles<LeafF> place_triangles(const Beam& beam, const Bloc
   return f;
 }
 
-// The extent of corners along an axis.
-FASTRT_INLINE Extent<LeafF> extent_of(const LeafF (&corner)[3], const LeafF& padding) {
-  return {min(corner[0], min(corner[1], corner[2])) - padding,
-          max(corner[0], max(corner[1], corner[2])) + padding};
-}
-
 // Rays, one in each lane.
 struct LaneRays {
   PacketF x, y, slope_x, slope_y;
@@ -56,48 +50,6 @@ FASTRT_INLINE std::uint32_t lies_around(const LaneRays& r, const FrameTriangles<
   const PacketF p = cull_mul_sub(x[1], y[2], y[1] * x[2]), q = cull_mul_sub(x[2], y[0], y[2] * x[0]),
                 s = cull_mul_sub(x[0], y[1], y[0] * x[1]);
   return to_bits((min(p, min(q, s)) >= negate(f.margin)) | (max(p, max(q, s)) <= f.margin));
-}
-
-// Triangles as columns.
-struct TriangleColumns {
-  alignas(32) float columns[10][leaf_lanes];
-};
-
-FASTRT_INLINE TriangleColumns store_triangles(const FrameTriangles<LeafF>& f) {
-  TriangleColumns out;
-  for (int c = 0; c < 3; ++c) {
-    f.u[c].store_aligned(out.columns[c]);
-    f.v[c].store_aligned(out.columns[3 + c]);
-    f.w[c].store_aligned(out.columns[6 + c]);
-  }
-  f.margin.store_aligned(out.columns[9]);
-  return out;
-}
-
-// Triangle i in all lanes.
-FASTRT_INLINE FrameTriangles<PacketF> spread_triangle(const TriangleColumns& f, int i) {
-  FrameTriangles<PacketF> out;
-  for (int c = 0; c < 3; ++c) {
-    out.u[c] = PacketF(f.columns[c][i]);
-    out.v[c] = PacketF(f.columns[3 + c][i]);
-    out.w[c] = PacketF(f.columns[6 + c][i]);
-  }
-  out.margin = PacketF(f.columns[9][i]);
-  return out;
-}
-
-// The rays of group g that triangle i lies around.
-FASTRT_INLINE std::uint32_t rays_inside(const BeamRays& rays, const TriangleColumns& f, int i, int g) {
-  const FrameTriangles<PacketF> triangle = spread_triangle(f, i);
-  std::uint32_t bits = 0;
-  for (int k = 0; k < group_size; k += widest) {
-    const int r = g * group_size + k;
-    bits |= lies_around({PacketF::load_aligned(rays.x + r), PacketF::load_aligned(rays.y + r),
-                         PacketF::load_aligned(rays.slope_x + r), PacketF::load_aligned(rays.slope_y + r)},
-                        triangle)
-            << k;
-  }
-  return bits;
 }
 
 // Rays that are held against all triangles of a run at a time, each in as many lanes as there are triangles.

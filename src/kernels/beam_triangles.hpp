@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A beam and triangles: they are sieved, ray by ray where few rays reach the leaf; what is left is tested
-// with a register full of rays or of triangles, whichever takes fewer tests.
+// A beam and triangles: they are sieved, ray by ray; what is left is tested with a register full of rays or
+// of triangles, whichever takes fewer tests.
 #pragma once
 
 #include "src/kernels/beam_hits.hpp"
@@ -92,44 +92,10 @@ FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const Block
   return changed;
 }
 
-// The places that hold triangles of their own.
-FASTRT_INLINE std::uint32_t places_of(const BlockRun<TriangleBlock>& run) {
-  return ((1U << run.lanes) - 1U) * 0x01010101U;
-}
-
-// Many rays: each triangle is held against the groups that its box touches. Returns the rays that have a new
-// hit.
-template <bool any>
-[[gnu::noinline]] static std::uint64_t
-meet_by_groups(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) noexcept {
-  const FrameTriangles<LeafF> f = place_triangles(t.beam, run);
-  const LeafF padding(t.beam.padding);
-  const Extents<LeafF> boxes{extent_of(f.u, padding), extent_of(f.v, padding), extent_of(f.w, padding)};
-  std::uint32_t places = touch_boxes(t.beam, boxes) & places_of(rays) & places_of(run);
-  if (places == 0) return 0;
-  const TriangleColumns columns = store_triangles(f);
-  std::uint64_t changed = 0;
-  for (; places != 0; places &= places - 1) {
-    const int place = __builtin_ctz(places), g = place / pair_lanes, i = place % pair_lanes;
-    const std::uint32_t inside = rays_inside(t.beam.rays, columns, i, g) & rays_of_group(rays, g) &
-                                 ~rays_that_exclude(t.rays, t.first + g * group_size, run.primitive(i));
-    if (inside == 0) continue;
-    changed |= static_cast<std::uint64_t>(meet_triangle(t, run, i, g, inside)) << (g * group_size);
-  }
-  return changed;
-}
-
-// More rays than this are held against triangles by their groups.
-inline constexpr int most_single_rays = 32;
-
 // (A test of a run's triangles against one ray costs as much as one of a triangle against a register of
 // rays.)
 template <bool any>
 FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) {
-  if (__builtin_popcountll(rays) > most_single_rays) {
-    shorten(t, meet_by_groups(t, run, rays));
-    return;
-  }
   SievedRun found;
   sieve_run(t, run, rays, found);
   if (found.rays == 0) return;
