@@ -14,7 +14,7 @@ template <class T>
 void fill(Column<T>& column, std::size_t count, T value, int threads) {
   column.resize(count);
   T* const values = column.data();
-#pragma omp parallel for simd schedule(static) num_threads(thread_count(threads)) if (count > 65536)
+#pragma omp parallel for schedule(static) num_threads(thread_count(threads)) if (count > 65536)
   for (std::size_t i = 0; i < count; ++i) values[i] = value;
 }
 
