@@ -14,8 +14,7 @@ inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_4"; // the n
 
 struct PictureToEncode {
   const char* format; // an extension without the dot
-  const void* pixels; // 3 * width * height values, rows from the top
-  int is_float;       // otherwise bytes
+  const void* pixels; // 3 * width * height values, rows from the top: of JPEG bytes, otherwise floats
   int width, height;
   int threads;
 };
@@ -26,8 +25,8 @@ struct EncodedPicture {
   char error[256];
 };
 
-// Returns 1, or 0 with `error` set. Throws nothing. The module for PNG and JPEG makes JPEG of bytes, the one
-// that holds OpenImageIO all else but EXR.
+// Returns 1, or 0 with `error` set. Throws nothing. The module for PNG and JPEG makes JPEG, the one that
+// holds OpenImageIO what has floats and is not EXR.
 using PictureEncode = int(const PictureToEncode* picture, EncodedPicture* result);
 
 // Numbers of four bytes, one a pixel, rows from the top.

@@ -54,16 +54,14 @@ Bytes encode(int (*encoder)(const Request*, EncodedPicture*), const Request& req
 
 Bytes encode_with_module(const std::string& format, const Picture& picture) {
   check_limits(format, picture);
-  const bool is_float = !is_8bit_format(format);
   Bytes codes;
-  if (!is_float) {
+  if (is_jpeg(format)) {
     codes.resize(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     put_codes(picture, 0, codes.size(), codes.data());
   }
   PictureToEncode request{};
   request.format = format.c_str();
-  request.pixels = is_float ? static_cast<const void*>(picture.linear) : codes.data();
-  request.is_float = is_float ? 1 : 0;
+  request.pixels = is_jpeg(format) ? codes.data() : static_cast<const void*>(picture.linear);
   request.width = picture.width;
   request.height = picture.height;
   request.threads = thread_count(picture.threads);

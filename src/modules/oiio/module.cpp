@@ -28,14 +28,10 @@ int fail(Result& result, const std::string& why) {
   return 0;
 }
 
-OIIO::TypeDesc type_of(const PictureToEncode& picture) {
-  return picture.is_float != 0 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-}
-
 OIIO::ImageSpec spec_of(const PictureToEncode& picture) {
-  OIIO::ImageSpec spec(picture.width, picture.height, 3, type_of(picture));
+  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("Software", "fastrt");
-  spec.attribute("oiio:ColorSpace", picture.is_float != 0 ? "Linear" : "sRGB");
+  spec.attribute("oiio:ColorSpace", "Linear");
   return spec;
 }
 
@@ -50,7 +46,7 @@ int encode(const PictureToEncode& picture, EncodedPicture& result) {
   if (!output->set_ioproxy(&memory) || !output->open(name, spec_of(picture)))
     return fail(result, output->geterror());
   // close() can succeed after a failed write_image.
-  if (!output->write_image(type_of(picture), picture.pixels)) return fail(result, output->geterror());
+  if (!output->write_image(OIIO::TypeDesc::FLOAT, picture.pixels)) return fail(result, output->geterror());
   if (!output->close() || output->has_error()) return fail(result, output->geterror());
   output.reset();
 

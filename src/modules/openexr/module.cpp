@@ -5,11 +5,13 @@
 #include <OpenEXR/openexr.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <string_view>
+#include <type_traits>
 
 namespace {
 

@@ -6,9 +6,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
-#include <exception>
 #include <memory>
 #include <new>
 
