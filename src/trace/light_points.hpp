@@ -15,32 +15,38 @@ FASTRT_INLINE PathV load_position(const LightRow& light, const LightBatch& seen,
                           : broadcast3<PathF>(light.position);
 }
 
-// Who asks light k for ray i of the batch.
-FASTRT_INLINE LightQuestion question_of(const TileJob& job, const PathBatch& rays, std::uint32_t k, int i,
-                                        const TileScratch& scratch) {
-  const int row = rays.pixel[i];
+// Which pixels' samples the rays of a batch belong to.
+struct Askers {
+  alignas(64) std::uint32_t x[batch_size], y[batch_size], sample[batch_size];
+};
+
+FASTRT_INLINE void find_askers(const TileJob& job, const PathBatch& rays, const TileScratch& scratch,
+                               Askers& out) {
   const bool mixed = scratch.row_count != 0;
-  const int pixel = mixed ? scratch.row_places[row] : row;
-  const int sample = mixed ? scratch.row_samples[row] : scratch.sample;
-  return {static_cast<std::uint32_t>(picture_x(job, pixel)),
-          static_cast<std::uint32_t>(picture_y(job, pixel)),
-          static_cast<std::uint32_t>(sample),
-          static_cast<std::uint32_t>(rays.depth),
-          k,
-          job.seed};
+  for (int i = 0; i < rays.count; ++i) {
+    const int row = rays.pixel[i];
+    const int pixel = mixed ? scratch.row_places[row] : row;
+    out.x[i] = static_cast<std::uint32_t>(picture_x(job, pixel));
+    out.y[i] = static_cast<std::uint32_t>(picture_y(job, pixel));
+    out.sample[i] = static_cast<std::uint32_t>(mixed ? scratch.row_samples[row] : scratch.sample);
+  }
 }
 
-// What shifts the samples of light k, ray by ray, and numbers them: the same for all of them.
+// What shifts the samples of light k, ray by ray, and numbers them: the same for all of them. (A loop that
+// compilers make SIMD of; rays that only fill a register ask as well.)
 static void find_light_keys(const TileJob& job, const PathBatch& rays, std::uint32_t k,
                             const TileScratch& scratch, LightBatch& out) noexcept {
-  int i = 0;
-  for (; i < rays.count; ++i) {
-    const LightBits key = light_key(question_of(job, rays, k, i, scratch));
+  Askers askers{};
+  find_askers(job, rays, scratch, askers);
+  const auto depth = static_cast<std::uint32_t>(rays.depth), seed = job.seed,
+             count = static_cast<std::uint32_t>(job.light_samples);
+  const int end = (rays.count + widest - 1) / widest * widest;
+  for (int i = 0; i < end; ++i) {
+    const LightBits key = light_key({askers.x[i], askers.y[i], askers.sample[i], depth, k, seed});
     out.key_u[i] = key.u;
     out.key_v[i] = key.v;
-    out.first[i] = first_stratum(key.u, static_cast<std::uint32_t>(job.light_samples));
+    out.first[i] = first_stratum(key.u, count);
   }
-  for (; i % widest != 0; ++i) out.key_u[i] = out.key_v[i] = out.first[i] = 0;
 }
 
 // One sample of each of the first `count` rays, on a light of a shape that is not a mesh. (A loop that
