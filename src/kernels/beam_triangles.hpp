@@ -48,6 +48,15 @@ FASTRT_INLINE void sieve_run(const BeamTraversal<any>& t, const BlockRun<Triangl
   }
 }
 
+// A function of its own where registers hold sixteen lanes: gcc's code of the loop in the midst of a
+// traversal takes twice as long after some changes to what is around it. (With fewer lanes the call costs
+// more.)
+template <bool any>
+[[gnu::noinline]] static void sieve_run_apart(const BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run,
+                                              std::uint64_t rays, SievedRun& sieved) noexcept {
+  sieve_run(t, run, rays, sieved);
+}
+
 template <bool any>
 FASTRT_INLINE std::uint32_t meet_triangle(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, int lane,
                                           int g, std::uint32_t bits) {
@@ -97,7 +106,10 @@ FASTRT_INLINE std::uint64_t meet_run_together(BeamTraversal<any>& t, const Block
 template <bool any>
 FASTRT_INLINE void meet_run(BeamTraversal<any>& t, const BlockRun<TriangleBlock>& run, std::uint64_t rays) {
   SievedRun found;
-  sieve_run(t, run, rays, found);
+  if constexpr (rays_at_once == 2)
+    sieve_run_apart(t, run, rays, found);
+  else
+    sieve_run(t, run, rays, found);
   if (found.rays == 0) return;
   const bool alone =
       __builtin_popcountll(found.rays) * widest <= __builtin_popcount(found.places) * group_size;
