@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/accel/numbered_range.hpp"
 
-#include "src/accel/move.hpp"
+#include "src/accel/item_loops.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace fastrt {
 namespace {
 
 // Boxes by their numbers, from a list of these. Neighbours in the list may lie anywhere: boxes are asked for
-// some steps ahead. (Numbers beyond the list's end are numbers all the same.)
+// some steps ahead.
 struct Numbered {
   static constexpr std::size_t ahead = 24;
 
@@ -31,23 +31,10 @@ Numbered items_of(const NumberedBoxes& all, const BuildRange& range) {
 
 } // namespace
 
-void measure(const NumberedBoxes& all, BuildRange& range) {
-  const Numbered items = items_of(all, range);
-  range.bounds = range.centroids = LaneBox{};
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const LaneBox box = load(items.box(i));
-    range.bounds.extend(box);
-    range.centroids.extend(doubled_centroid(box));
-  }
-  range.tight = true;
-}
+void measure(const NumberedBoxes& all, BuildRange& range) { measure_items(items_of(all, range), range); }
 
 void fill_bins(const NumberedBoxes& all, const BuildRange& range, const BinMapping& mapping, Bins& bins) {
-  const Numbered items = items_of(all, range);
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const LaneBox box = load(items.box(i));
-    bins.add(box, mapping(doubled_centroid(box)));
-  }
+  add_items(items_of(all, range), range, mapping, bins);
 }
 
 void move_to_sides(const NumberedBoxes& all, const BuildRange& range, std::size_t begin, std::size_t end,

@@ -12,13 +12,16 @@ struct NumberedBoxes {
   std::uint32_t* buffers[2]; // numbers of boxes travel between the two, one way per level
 };
 
-// As those of subtree.hpp: numbers range.begin .. range.end - 1 of the range's buffer, or begin .. end - 1.
+// The range's exact bounds: of the boxes with its numbers, and of their doubled centroids.
 void measure(const NumberedBoxes& all, BuildRange& range);
+// Adds the range's boxes to where `mapping` puts them.
 void fill_bins(const NumberedBoxes& all, const BuildRange& range, const BinMapping& mapping, Bins& bins);
+// Moves numbers begin .. end - 1, a part of the range, to the other buffer: each to its side, from sides.next
+// on, in their order. Their boxes go into the side's bins.
 void move_to_sides(const NumberedBoxes& all, const BuildRange& range, std::size_t begin, std::size_t end,
                    const BinSplit& split, const SplitSides& sides, Bins* const bins[2]);
 
-// The boxes of a range, side by side.
+// The boxes of a range, side by side: `to` holds range.size().
 void gather(const NumberedBoxes& all, const BuildRange& range, PrimitiveBox* to);
 
 } // namespace fastrt

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/accel/subtree.hpp"
 
-#include "src/accel/move.hpp"
+#include "src/accel/item_loops.hpp"
 
 namespace fastrt {
 namespace {
 
 LaneBox intersection(const LaneBox& a, const LaneBox& b) {
   return {_mm_max_ps(a.lower, b.lower), _mm_min_ps(a.upper, b.upper)};
+}
+
+__m128 with_lane(__m128 values, int lane, float value) {
+  alignas(16) float lanes[4];
+  _mm_store_ps(lanes, values);
+  lanes[lane] = value;
+  return _mm_load_ps(lanes);
 }
 
 // Boxes that travel themselves.
@@ -22,31 +29,23 @@ struct Moved {
   }
 };
 
+Moved items_of(const BuildContext& context, const BuildRange& range) {
+  return {context.buffers[range.buffer], context.buffers[1 - range.buffer]};
+}
+
 template <bool into_bins>
 void move(const BuildContext& context, const BuildRange& range, const BinSplit& split,
           const SplitSides& sides, Bins* const bins[2]) {
-  const Moved items{context.buffers[range.buffer], context.buffers[1 - range.buffer]};
-  move_items<into_bins>(items, range.centroids, range.begin, range.end, split, sides, bins);
+  move_items<into_bins>(items_of(context, range), range.centroids, range.begin, range.end, split, sides,
+                        bins);
 }
 
 void measure(const BuildContext& context, BuildRange& range) {
-  range.bounds = range.centroids = LaneBox{};
-  const PrimitiveBox* boxes = context.buffers[range.buffer];
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const LaneBox box = load(boxes[i]);
-    range.bounds.extend(box);
-    range.centroids.extend(doubled_centroid(box));
-  }
-  range.tight = true;
+  measure_items(items_of(context, range), range);
 }
 
 void fill_bins(const BuildContext& context, const BuildRange& range, Bins& bins) {
-  const BinMapping mapping(range.centroids);
-  const PrimitiveBox* boxes = context.buffers[range.buffer];
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const LaneBox box = load(boxes[i]);
-    bins.add(box, mapping(doubled_centroid(box)));
-  }
+  add_items(items_of(context, range), range, BinMapping(range.centroids), bins);
 }
 
 GroupedNode build_halves(const BuildContext& context, const BuildRange& range, NodeList& list) {

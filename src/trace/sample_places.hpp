@@ -54,7 +54,7 @@ FASTRT_INLINE void place_centers(const TileJob& job, const TileScratch& scratch,
 
 // Samples of pixels row by row: the pixels, and what each takes of its sample's set. The sets follow each
 // other again and again.
-struct alignas(64) SampleRows {
+struct alignas(64) PixelSamples {
   std::uint32_t x[batch_size], y[batch_size];
   std::uint32_t u[batch_size], v[batch_size], shift[batch_size], index[batch_size];
   SampleSet sets[batch_size];
@@ -62,8 +62,8 @@ struct alignas(64) SampleRows {
 };
 
 // Samples first .. first + samples - 1 in turn, of the pixels in these places of the tile.
-FASTRT_INLINE void make_sample_rows(const TileJob& job, const std::int32_t* places, int count, int first,
-                                    int samples, SampleRows& rows) {
+FASTRT_INLINE void make_pixel_samples(const TileJob& job, const std::int32_t* places, int count, int first,
+                                      int samples, PixelSamples& rows) {
   const auto left = static_cast<std::uint32_t>(job.x), top = static_cast<std::uint32_t>(job.y);
   for (int i = 0; i < count; ++i) {
     rows.x[i] = left + static_cast<std::uint32_t>(tile_pixel_x(places[i]));
@@ -92,7 +92,7 @@ struct alignas(64) UnitPlaces {
   float u[batch_size], v[batch_size];
 };
 
-FASTRT_INLINE void find_unit_places(const SampleRows& rows, std::uint32_t seed, UnitPlaces& out) {
+FASTRT_INLINE void find_unit_places(const PixelSamples& rows, std::uint32_t seed, UnitPlaces& out) {
   for (int i = 0; i < rows.count; ++i) {
     const std::uint32_t key = pixel_key(rows.x[i], rows.y[i], seed) + rows.shift[i];
     const UnitPlace place = unit_place({rows.u[i], rows.v[i]}, key);
@@ -103,7 +103,7 @@ FASTRT_INLINE void find_unit_places(const SampleRows& rows, std::uint32_t seed, 
 
 // offset_of(row): from the pixel's centre.
 template <class OffsetOf>
-FASTRT_INLINE void place_by(const SampleRows& rows, SamplePlaces& to, const OffsetOf& offset_of) {
+FASTRT_INLINE void place_by(const PixelSamples& rows, SamplePlaces& to, const OffsetOf& offset_of) {
   for (int i = 0; i < rows.count; ++i) {
     const SampleOffset offset = offset_of(i);
     to.px[i] = (static_cast<float>(static_cast<std::int32_t>(rows.x[i])) + 0.5F) + offset.x;
@@ -111,7 +111,7 @@ FASTRT_INLINE void place_by(const SampleRows& rows, SamplePlaces& to, const Offs
   }
 }
 
-static void place_on_image(const SampleRows& rows, const Filter& filter, std::uint32_t seed,
+static void place_on_image(const PixelSamples& rows, const Filter& filter, std::uint32_t seed,
                            SamplePlaces& to) noexcept {
   UnitPlaces units;
   find_unit_places(rows, seed, units);
@@ -124,7 +124,7 @@ static void place_on_image(const SampleRows& rows, const Filter& filter, std::ui
     place_by(rows, to, [&](int i) { return filtered_by_table(rows.sets[i % rows.set_count], unit(i)); });
 }
 
-static void place_on_lens(const SampleRows& rows, std::uint32_t seed, SamplePlaces& to) noexcept {
+static void place_on_lens(const PixelSamples& rows, std::uint32_t seed, SamplePlaces& to) noexcept {
   alignas(64) std::uint32_t key[batch_size], u[batch_size], v[batch_size], bits[batch_size];
   for (int i = 0; i < rows.count; ++i) {
     key[i] = lens_key(rows.x[i], rows.y[i], seed);
@@ -150,8 +150,8 @@ static void place_on_lens(const SampleRows& rows, std::uint32_t seed, SamplePlac
 // rows.
 FASTRT_INLINE void place_samples(const TileJob& job, const std::int32_t* places, int count, int first,
                                  int samples, SamplePlaces& to) {
-  SampleRows rows;
-  make_sample_rows(job, places, count, first, samples, rows);
+  PixelSamples rows;
+  make_pixel_samples(job, places, count, first, samples, rows);
   place_on_image(rows, job.filter, job.seed, to);
   if (job.camera.kind == CameraKind::lens) place_on_lens(rows, job.seed, to);
 }

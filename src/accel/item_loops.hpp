@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The builder's innermost loop.
+// The builder's innermost loops, over items: boxes side by side, or a list of the numbers of boxes.
+// items.box(i): the box of the i-th; items.store(i, box, to): puts what there is of it; items.to: the place
+// of the first after a move.
 #pragma once
 
 #include "src/accel/subtree.hpp"
 
 namespace fastrt {
-
-inline __m128 with_lane(__m128 values, int lane, float value) {
-  alignas(16) float lanes[4];
-  _mm_store_ps(lanes, values);
-  lanes[lane] = value;
-  return _mm_load_ps(lanes);
-}
 
 inline float lane_of(__m128 values, int lane) {
   alignas(16) float lanes[4];
@@ -19,8 +14,28 @@ inline float lane_of(__m128 values, int lane) {
   return lanes[lane];
 }
 
-// Moves primitives begin .. end - 1 to their sides, keeping their order, and into the sides' bins only if
-// these are asked for. items.box(i): the box of the i-th; items.store(i, box, to): puts what there is of it.
+// The range's exact bounds: of its boxes and of their doubled centroids.
+template <class Items>
+void measure_items(const Items& items, BuildRange& range) {
+  range.bounds = range.centroids = LaneBox{};
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const LaneBox box = load(items.box(i));
+    range.bounds.extend(box);
+    range.centroids.extend(doubled_centroid(box));
+  }
+  range.tight = true;
+}
+
+template <class Items>
+void add_items(const Items& items, const BuildRange& range, const BinMapping& mapping, Bins& bins) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const LaneBox box = load(items.box(i));
+    bins.add(box, mapping(doubled_centroid(box)));
+  }
+}
+
+// Moves items begin .. end - 1 to their sides, keeping their order, and into the sides' bins only if these
+// are asked for.
 // What a primitive's bins wait for is kept short, or they are late for the next primitives': the axis is
 // looked at by itself, in all lanes, and both sides' mappings are at hand before it is known which counts.
 template <bool into_bins, class Items>
