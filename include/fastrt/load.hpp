@@ -54,7 +54,7 @@ Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Ve
 float orthographic_height(const Aabb& bounds, const Camera& camera, float aspect);
 
 // Light for a scene that has none: a key light with shadows, a soft fill from the camera's side without, and
-// ambient.
+// where the scene does not say, ambient light and a dark grey background.
 void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camera);
 
 // The lights that a scene's own surfaces are: one of LightKind::mesh for each material of some triangle that

@@ -122,8 +122,8 @@ struct SceneDesc {
   std::vector<Texture> textures;         // materials index these
   std::vector<std::string> object_names; // the primitives' object columns index these
   std::vector<Light> lights;
-  Vec3 ambient{0.0F};    // Ia
-  Vec3 background{0.0F}; // what a ray that hits nothing sees
+  std::optional<Vec3> ambient;    // Ia; 0 where not given
+  std::optional<Vec3> background; // what a ray that hits nothing sees; black where not given
 
   // What a scene file says of the picture to be made of it; Scene itself does not look at it.
   std::optional<Camera> camera;
@@ -175,6 +175,7 @@ public:
 
   // The scene's ambient light and that of its lights.
   Vec3 ambient() const noexcept;
+  Vec3 background() const noexcept { return desc_.background.value_or(Vec3(0.0F)); }
   // The box around all instances and all primitives but planes and those of prototypes; empty if there are
   // none.
   const Aabb& bounds() const noexcept { return bounds_; }

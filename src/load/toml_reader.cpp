@@ -80,8 +80,8 @@ public:
     if (const auto include = fields.find("include")) read_includes(file, *include);
     open_.pop_back();
     done_.insert(real);
-    fields.read_color("background", scene_.desc.background);
-    fields.read_color("ambient", scene_.desc.ambient);
+    if (const auto background = fields.find("background")) scene_.desc.background = background->color();
+    if (const auto ambient = fields.find("ambient")) scene_.desc.ambient = ambient->color();
     if (const auto camera = fields.find("camera")) read_toml_camera(file, camera->node(), scene_);
     if (const auto picture = fields.find("picture")) read_toml_picture(file, picture->node(), scene_);
     if (const auto materials = fields.find("material")) read_toml_materials(file, materials->node(), scene_);

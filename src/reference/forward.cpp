@@ -71,7 +71,7 @@ Frame render_forward(const Scene& scene, const HitFinder& finder, const Camera& 
   const EyeProjection eye = make_eye_projection(camera_frame);
   Frame frame = render(scene, finder, camera, center_settings(settings));
   if (!frame.complete) return frame;
-  keep_background(scene.desc().background, frame);
+  keep_background(scene.background(), frame);
 
   const Crop part = part_of(settings);
   const PhotonPlan plan = plan_forward_photons(scene, settings.photons);

@@ -56,7 +56,7 @@ Vec3 ray_trace(const Scene& scene, const HitFinder& finder, const Ray& ray, cons
     if (node.depth == 0) sight.hit = hit;
     if (node.depth > sight.deepest) sight.deepest = node.depth;
     if (!hit.found()) {
-      sum = sum + node.weight * scene.desc().background;
+      sum = sum + node.weight * scene.background();
       continue;
     }
 

@@ -41,7 +41,7 @@ Frame render_forward(const Tracer& tracer, const Camera& camera, const RenderSet
   const Tracer::Parts& parts = tracer.parts();
   Frame frame = render(tracer, camera, center_settings(settings));
   if (!frame.complete) return frame;
-  keep_background(parts.scene.desc().background, frame);
+  keep_background(parts.scene.background(), frame);
 
   const PhotonScene scene(parts);
   const PhotonPlan plan = plan_forward_photons(parts.scene, settings.photons);

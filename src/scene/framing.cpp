@@ -139,8 +139,8 @@ void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camer
   }
   desc.lights.push_back(key);
   desc.lights.push_back(fill);
-  if (desc.ambient == Vec3(0.0F)) desc.ambient = Vec3(0.1F);
-  if (desc.background == Vec3(0.0F)) desc.background = Vec3(0.033F, 0.036F, 0.042F);
+  if (!desc.ambient) desc.ambient = Vec3(0.1F);
+  if (!desc.background) desc.background = Vec3(0.033F, 0.036F, 0.042F);
 }
 
 } // namespace fastrt

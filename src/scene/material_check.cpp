@@ -96,8 +96,10 @@ void check_lights(const SceneDesc& desc) {
     const std::string fault = fault_of(desc, desc.lights[i]);
     if (!fault.empty()) throw InputError("light " + std::to_string(i) + ": " + fault);
   }
-  if (!is_colour(desc.ambient)) throw InputError("the ambient light must be finite and not negative");
-  if (!is_colour(desc.background)) throw InputError("the background must be finite and not negative");
+  if (desc.ambient && !is_colour(*desc.ambient))
+    throw InputError("the ambient light must be finite and not negative");
+  if (desc.background && !is_colour(*desc.background))
+    throw InputError("the background must be finite and not negative");
 }
 
 } // namespace fastrt

@@ -99,7 +99,7 @@ std::uint32_t Scene::object_of(std::uint32_t primitive, std::int32_t instance) c
 }
 
 Vec3 Scene::ambient() const noexcept {
-  Vec3 sum = desc_.ambient;
+  Vec3 sum = desc_.ambient.value_or(Vec3(0.0F));
   for (const Light& light : desc_.lights) sum = sum + light.ambient;
   return sum;
 }

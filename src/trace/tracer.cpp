@@ -97,7 +97,6 @@ void fill_columns(const Scene& scene, ShadingView& view) {
 
 void fill_shading_view(Tracer::Parts& parts) {
   ShadingView& view = parts.view.shading;
-  const SceneDesc& desc = parts.scene.desc();
   fill_columns(parts.scene, view);
   view.shape_material = parts.shapes.materials.data();
   view.shape_object = parts.shapes.objects.data();
@@ -111,10 +110,10 @@ void fill_shading_view(Tracer::Parts& parts) {
   for (const MaterialRow& row : parts.materials) view.has_textures |= row.textures != nullptr ? 1U : 0U;
   for (const MaterialRow& row : parts.materials)
     view.has_absorption |= view.has_transmission != 0 ? row.has_absorption : 0U;
-  const Vec3 ambient = parts.scene.ambient();
+  const Vec3 ambient = parts.scene.ambient(), background = parts.scene.background();
   for (int c = 0; c < 3; ++c) {
     view.ambient[c] = ambient[c];
-    view.background[c] = desc.background[c];
+    view.background[c] = background[c];
   }
 }
 

@@ -106,7 +106,7 @@ TEST(FrameScene, NonsenseIsRefused) {
 
 // The most that a diffuse grey surface of the given normal gets.
 float brightness(const SceneDesc& desc, const Vec3& normal) {
-  float light = desc.ambient.x;
+  float light = desc.ambient.value().x;
   for (const Light& l : desc.lights)
     light += l.intensity.x * std::max(0.0F, -glm::dot(glm::normalize(l.direction), normal));
   return 0.8F * light;
@@ -171,6 +171,18 @@ TEST(DefaultLights, KeepWhatTheSceneHas) {
   EXPECT_EQ(desc.background, Vec3(0.0F, 0.0F, 1.0F));
   EXPECT_EQ(desc.ambient, Vec3(0.5F));
   EXPECT_EQ(desc.lights.size(), 3U);
+}
+
+TEST(DefaultLights, BlackIsAColourLikeAnyOther) {
+  SceneDesc desc;
+  desc.background = desc.ambient = Vec3(0.0F);
+  add_default_lights(desc, boxes[0], frame_scene(boxes[0], 40, 1));
+  EXPECT_EQ(desc.background, Vec3(0.0F));
+  EXPECT_EQ(desc.ambient, Vec3(0.0F));
+  SceneDesc silent;
+  add_default_lights(silent, boxes[0], frame_scene(boxes[0], 40, 1));
+  EXPECT_GT(silent.background.value().x, 0.0F);
+  EXPECT_GT(silent.ambient.value().x, 0.0F);
 }
 
 TEST(DefaultLights, LightARoomFromTheEye) {

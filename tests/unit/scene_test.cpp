@@ -169,8 +169,8 @@ const Fault look_faults[] = {
        d.materials.back().emission = Vec3(1.0F);
      },
      "light 0: no triangle has the material"},
-    {"AmbientLight", [](SceneDesc& d) { d.ambient.x = nan; }, "the ambient light"},
-    {"Background", [](SceneDesc& d) { d.background.x = -1; }, "the background"},
+    {"AmbientLight", [](SceneDesc& d) { d.ambient = Vec3(nan, 0, 0); }, "the ambient light"},
+    {"Background", [](SceneDesc& d) { d.background = Vec3(-1, 0, 0); }, "the background"},
 };
 
 std::string fault_name(const testing::TestParamInfo<Fault>& info) { return info.param.name; }

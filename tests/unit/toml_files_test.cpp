@@ -107,7 +107,7 @@ TEST(TomlSidecars, CompleteAnObjFile) {
   const SceneDesc desc = load_house(texts).desc;
   EXPECT_TRUE(desc.camera);
   EXPECT_EQ(desc.lights.size(), 1U);
-  EXPECT_EQ(desc.background, Vec3(0.0F));
+  EXPECT_FALSE(desc.background);
   ASSERT_EQ(desc.triangles.size(), 1U); // the mesh is there already
   ASSERT_EQ(desc.spheres.size(), 1U);
   EXPECT_EQ(desc.spheres.material[0], desc.triangles.material[0]);

@@ -141,7 +141,7 @@ TEST(TomlShapes, MeshesOfFilesBringTheirMaterials) {
   EXPECT_EQ(desc.polygons.size(), 1U);
   EXPECT_EQ(desc.positions[desc.polygons.vertex[2]], Vec3(2, 2, 0));
   EXPECT_TRUE(desc.lights.empty()); // a mesh's lights are not the scene's
-  EXPECT_EQ(desc.background, Vec3(0.0F));
+  EXPECT_FALSE(desc.background);
   EXPECT_NO_THROW(Scene{desc});
 }
 
