@@ -49,7 +49,7 @@ struct AovPlane {
 };
 
 // The colour that stands for an object in scene signatures, as sRGB codes 0..255: always the same for an id,
-// never black, and far from the others' for the first thousand.
+// never black, another one for each of the first 1.8 million, and far from the others' for the first 448.
 std::array<std::uint8_t, 3> signature_color(std::uint32_t object) noexcept;
 
 } // namespace fastrt

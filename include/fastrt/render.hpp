@@ -43,8 +43,8 @@ struct RenderSettings {
   float adaptive = 0;
   int most_samples = 0;                // 0: 16 times samples_per_pixel
   int light_samples = 16;              // shadow rays to each light with a size, 1..1024
-  int max_depth = 8;                   // bounces after the camera ray; 0 traces none
-  float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced
+  int max_depth = 8;                   // bounces after the camera ray, 0..64; 0 traces none
+  float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced; 0..1
   Integrator integrator = Integrator::whitted;
   std::int64_t photons = 1000000; // of the forward integrator, of all lights together, 1..2^30
   // Above 0: so many photons go through mirrors and glass before the picture is made, and the surfaces that
@@ -88,6 +88,8 @@ struct RayTests {
 // background).
 struct Frame {
   int width = 0, height = 0;
+  int x = 0, y = 0;                      // where a crop's first pixel lies in the whole picture
+  int whole_width = 0, whole_height = 0; // of that picture; 0 where the frame is all there is
   Column<float> rgb;
   Column<std::int32_t> primitive;
   // With PixelFormat::srgb8, which leaves both of these empty: three codes a pixel, what encode_image makes

@@ -39,7 +39,9 @@ std::vector<unsigned char> encode_image(const std::string& format, std::span<con
 // The picture and its AOVs as one EXR of 32-bit channels: R G B, then "depth", "normal.X" and so on
 // (aov_info). Ids are unsigned integers counted from 1: 0 is the background.
 // The file's attribute "fastrt:objects" has a line for each of `objects` (SceneDesc::object_names), in the
-// order of their ids. threads: as of write_image, here and below.
+// order of their ids. A crop's data window is where it lies, its display window the whole picture. Throws
+// UsageError for a frame without a linear picture (PixelFormat::srgb8) and OutputError. threads: as of
+// write_image, here and below.
 std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std::string> objects = {},
                                          int threads = 0);
 

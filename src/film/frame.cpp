@@ -32,6 +32,14 @@ void check_photons(const RenderSettings& settings) {
     throw UsageError("the forward integrator takes no samples of pixels: there is nothing to adapt");
 }
 
+void check_bounces(const RenderSettings& settings) {
+  if (settings.max_depth < 0 || settings.max_depth > most_bounces)
+    throw UsageError("the depth must be from 0 to " + std::to_string(most_bounces) + " bounces, not " +
+                     std::to_string(settings.max_depth));
+  if (!(settings.min_contribution >= 0.0F && settings.min_contribution <= 1.0F))
+    throw UsageError("the least contribution must be from 0 to 1");
+}
+
 } // namespace
 
 void check(const RenderSettings& settings) {
@@ -55,7 +63,10 @@ void check(const RenderSettings& settings) {
                      std::to_string(settings.samples_per_pixel) + " of each pixel");
   if (settings.light_samples < 1 || settings.light_samples > 1024)
     throw UsageError("light samples must be from 1 to 1024, not " + std::to_string(settings.light_samples));
+  check_bounces(settings);
   check_photons(settings);
+  for (const Aov aov : settings.aovs)
+    if (static_cast<std::size_t>(aov) >= aov_count) throw UsageError("unknown AOV");
 }
 
 Crop part_of(const RenderSettings& settings) {
@@ -186,6 +197,11 @@ void FrameProgress::finish(Frame& frame) {
   frame.rays = rays_;
   frame.tests = tests_;
   frame.complete = parts_done_ == parts_;
+  const Crop part = part_of(*settings_);
+  frame.x = part.x0;
+  frame.y = part.y0;
+  frame.whole_width = settings_->width;
+  frame.whole_height = settings_->height;
 }
 
 FrameDifference compare(const Frame& a, const Frame& b) {

@@ -10,6 +10,7 @@
 
 namespace fastrt {
 
+inline constexpr int most_bounces = 64;
 inline constexpr std::int64_t most_photons = std::int64_t{1} << 30;
 inline constexpr std::int64_t most_caustic_photons = 100000000;
 
@@ -44,7 +45,7 @@ public:
   void failed(std::exception_ptr error);
   // The parts that are left turned out to be needless.
   void rest_is_done();
-  // Fills in the frame's counts and whether it is complete.
+  // Fills in the frame's counts, whether it is complete, and where it lies in the whole picture.
   void finish(Frame& frame);
 
 private:

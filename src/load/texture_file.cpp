@@ -11,7 +11,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -51,18 +53,6 @@ const char* format_of(std::string_view bytes, const std::filesystem::path& path)
   return lower_case(path.extension().string()) == ".tga" ? "targa" : "";
 }
 
-// Whether a PNG's chunks reach its end: libpng would print where they break off.
-bool is_whole_png(std::string_view bytes) {
-  for (std::size_t at = 8; bytes.size() - at >= 12;) {
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < 4; ++i) size = size << 8U | static_cast<unsigned char>(bytes[at + i]);
-    if (bytes.substr(at + 4, 4) == "IEND") return true;
-    if (bytes.size() - at - 12 < size) return false;
-    at += size + 12;
-  }
-  return false;
-}
-
 std::string contents_of(const std::filesystem::path& path) {
   const Source source = Source::open(path);
   if (source.size() > most_bytes) throw InputError("it is larger than 1 GiB");
@@ -88,19 +78,33 @@ Image image_of(const DecodedPicture& read, TextureCode code) {
   return {read.width, read.height, std::span<const float>(values, count)};
 }
 
-bool decode_with(const ModuleFunction& module, const PictureFile& file, DecodedPicture& read) {
-  return module.function != nullptr && reinterpret_cast<PictureDecode*>(module.function)(&file, &read) != 0;
+// Whether nothing of a damaged picture could be read.
+bool is_black(const DecodedPicture& read) {
+  const std::size_t pixels = static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
+  const auto no_colour = [&](const auto* rgba) {
+    for (std::size_t i = 0; i < 4 * pixels; ++i)
+      if (i % 4 != 3 && rgba[i] != 0) return false;
+    return true;
+  };
+  return read.is_float != 0 ? no_colour(static_cast<const float*>(read.rgba))
+                            : no_colour(static_cast<const std::uint8_t*>(read.rgba));
 }
 
-// "" if done, else why not.
+// "" if done, else why not; nothing where another module may know more.
+std::optional<std::string> decode_with(const ModuleFunction& module, const PictureFile& file,
+                                       DecodedPicture& read) {
+  if (module.function == nullptr) return module.fault;
+  if (reinterpret_cast<PictureDecode*>(module.function)(&file, &read) != 0) return "";
+  if (read.error[0] == '\0') return {};
+  return read.error;
+}
+
+// "" if done, else why not. (OpenImageIO would print what is wrong with a PNG.)
 std::string decode(const PictureFile& file, DecodedPicture& read) {
   const std::string_view format = file.format;
-  if ((format == "png" || format == "jpeg") &&
-      decode_with(find_png_jpeg_function(png_jpeg_decode_name), file, read))
-    return {};
-  const ModuleFunction oiio = find_oiio_function(oiio_decode_name);
-  if (oiio.function == nullptr) return oiio.fault;
-  return decode_with(oiio, file, read) ? std::string() : read.error;
+  if (format == "png" || format == "jpeg")
+    if (const auto done = decode_with(find_png_jpeg_function(png_jpeg_decode_name), file, read)) return *done;
+  return decode_with(find_oiio_function(oiio_decode_name), file, read).value_or("no reason is given");
 }
 
 } // namespace
@@ -110,13 +114,13 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
     const std::string bytes = contents_of(path);
     const std::string format = format_of(bytes, path);
     if (format.empty()) return {nullptr, "is no PNG, JPEG, EXR, HDR, TGA, PNM, BMP or TIFF picture"};
-    if (format == "png" && !is_whole_png(bytes)) return {nullptr, "can't be read: the file ends early"};
     const PictureFile file{format.c_str(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
                            max_image_side, most_bytes};
     DecodedPicture read{};
     const std::string why_not = decode(file, read);
     const std::unique_ptr<void, Free> rgba(read.rgba);
     if (!why_not.empty()) return {nullptr, "can't be read: " + printable(why_not)};
+    if (read.is_damaged != 0 && is_black(read)) return {nullptr, "can't be read: " + printable(read.error)};
     const std::string fault = read.is_damaged != 0 ? "is damaged: " + printable(read.error) : "";
     return {std::make_shared<const Image>(image_of(read, code)), fault};
   } catch (const InputError& error) {

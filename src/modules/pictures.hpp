@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of the modules for pictures, in plain types. OpenImageIO costs 0.2 s and 129 MB to load, so
 // the library finds it with dlopen when a picture needs it, and nothing else knows of it. Textures that are
-// usual PNG or JPEG files, and JPEG and EXR pictures, do not: libpng and libjpeg, and OpenEXR's core, in
+// PNG or usual JPEG files, and JPEG and EXR pictures, do not: libpng and libjpeg, and OpenEXR's core, in
 // modules of their own, take a millisecond.
 #pragma once
 
@@ -41,19 +41,21 @@ struct LayersToEncode {
   const LayerChannel* channels;
   int channel_count;
   int width, height;
+  int x, y; // the first pixel's place in the whole picture
+  int whole_width, whole_height;
   int threads;
   const char* objects; // the file's attribute "fastrt:objects", or null
 };
 
 inline constexpr const char* openexr_module_file = "fastrt_openexr.so";
-inline constexpr const char* openexr_encode_name = "fastrt_openexr_encode_1";
+inline constexpr const char* openexr_encode_name = "fastrt_openexr_encode_2";
 
 // An EXR file; else as PictureEncode.
 using LayersEncode = int(const LayersToEncode* layers, EncodedPicture* result);
 
 inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";
 inline constexpr const char* png_jpeg_module_file = "fastrt_png_jpeg.so";
-inline constexpr const char* png_jpeg_decode_name = "fastrt_png_jpeg_decode_1";
+inline constexpr const char* png_jpeg_decode_name = "fastrt_png_jpeg_decode_2";
 inline constexpr const char* png_jpeg_encode_name = "fastrt_png_jpeg_encode_2";
 
 // A whole file in memory.
@@ -74,8 +76,8 @@ struct DecodedPicture {
   char error[256]; // of damage too
 };
 
-// Returns 1, or 0: with `error` set, or of the module for PNG and JPEG also without, if the file is broken,
-// unusual or too large; OpenImageIO may know what to do with it, or what to say. Throws nothing.
+// Returns 1, or 0: with `error` set, or of JPEG files also without, if one is broken, unusual or too large;
+// OpenImageIO may know what to do with it, or what to say. Throws nothing.
 using PictureDecode = int(const PictureFile* file, DecodedPicture* texture);
 
 } // namespace fastrt

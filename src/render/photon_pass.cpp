@@ -3,7 +3,6 @@
 
 #include "src/scene/threads.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <memory>
@@ -92,7 +91,7 @@ PhotonPass make_photon_pass(const Tracer::Parts& parts, const PhotonScene& scene
   PhotonPass pass{parts.kernels, &plan, &chunks, {}, settings.threads};
   pass.job.scene = &scene.view();
   pass.job.seed = settings.seed;
-  pass.job.max_depth = std::clamp(settings.max_depth, 0, max_path_depth);
+  pass.job.max_depth = settings.max_depth;
   pass.job.min_contribution = settings.min_contribution;
   return pass;
 }

@@ -74,7 +74,7 @@ TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const Re
   job.seed = settings.seed;
   job.filter = filter_of(settings.filter);
   job.light_samples = settings.light_samples;
-  job.max_depth = std::clamp(settings.max_depth, 0, max_path_depth);
+  job.max_depth = settings.max_depth;
   job.min_contribution = settings.min_contribution;
   job.rgb = frame.rgb.data();
   job.primitive = frame.primitive.data();

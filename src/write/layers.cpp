@@ -4,6 +4,7 @@
 #include "src/write/formats.hpp"
 #include "src/write/stored_ids.hpp"
 
+#include <fastrt/error.hpp>
 #include <fastrt/write.hpp>
 
 #include <algorithm>
@@ -22,6 +23,20 @@ std::string lines_of(std::span<const std::string> names) {
   return lines;
 }
 
+// Frames of codes hold no linear picture.
+void check_sizes(const Frame& frame) {
+  const auto pixels = static_cast<std::size_t>(std::max(frame.width, 0)) *
+                      static_cast<std::size_t>(std::max(frame.height, 0));
+  bool fits = pixels != 0 && frame.rgb.size() == 3 * pixels;
+  for (const AovPlane& plane : frame.aovs) {
+    if (static_cast<std::size_t>(plane.aov) >= aov_count) throw UsageError("unknown AOV");
+    const AovInfo& info = aov_info(plane.aov);
+    const std::size_t size = info.integer ? plane.ids.size() : plane.values.size();
+    fits = fits && size == static_cast<std::size_t>(info.channels) * pixels;
+  }
+  if (!fits) throw UsageError("layers need a linear picture and whole AOVs");
+}
+
 std::vector<std::uint32_t> stored_ids(const AovPlane& plane) {
   std::vector<std::uint32_t> stored(plane.ids.size());
   std::transform(plane.ids.begin(), plane.ids.end(), stored.begin(),
@@ -33,6 +48,7 @@ std::vector<std::uint32_t> stored_ids(const AovPlane& plane) {
 
 std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std::string> objects,
                                          int threads) {
+  check_sizes(frame);
   std::vector<LayerChannel> channels = {
       {"R", frame.rgb.data(), 3, 0}, {"G", frame.rgb.data() + 1, 3, 0}, {"B", frame.rgb.data() + 2, 3, 0}};
   std::vector<std::vector<std::uint32_t>> ids; // they own what channels point to
@@ -47,8 +63,11 @@ std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std
                           count, info.integer ? 1 : 0});
   }
   const std::string names = lines_of(objects);
-  return encode_exr({channels.data(), static_cast<int>(channels.size()), frame.width, frame.height,
-                     thread_count(threads), names.empty() ? nullptr : names.c_str()});
+  const auto count = static_cast<int>(channels.size());
+  return encode_exr({channels.data(), count, frame.width, frame.height, frame.x, frame.y,
+                     std::max(frame.x + frame.width, frame.whole_width),
+                     std::max(frame.y + frame.height, frame.whole_height), thread_count(threads),
+                     names.empty() ? nullptr : names.c_str()});
 }
 
 } // namespace fastrt

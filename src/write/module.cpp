@@ -76,7 +76,8 @@ Bytes encode_exr(const LayersToEncode& layers) {
 Bytes encode_exr(const Picture& picture) {
   const LayerChannel channels[] = {
       {"R", picture.linear, 3, 0}, {"G", picture.linear + 1, 3, 0}, {"B", picture.linear + 2, 3, 0}};
-  return encode_exr({channels, 3, picture.width, picture.height, thread_count(picture.threads), nullptr});
+  return encode_exr({channels, 3, picture.width, picture.height, 0, 0, picture.width, picture.height,
+                     thread_count(picture.threads), nullptr});
 }
 
 } // namespace fastrt

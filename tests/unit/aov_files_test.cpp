@@ -3,6 +3,7 @@
 #include "src/film/frame.hpp"
 #include "src/film/srgb.hpp"
 
+#include <fastrt/error.hpp>
 #include <fastrt/write.hpp>
 
 #include <dlfcn.h>
@@ -139,6 +140,51 @@ TEST(EncodeLayers, HoldsEveryBitUnderItsName) {
   EXPECT_FALSE(read_channel(file, "nonsense", false, bits));
   EXPECT_EQ(read_attribute(file, "fastrt:objects"), "floor\ntwo lines\n\n");
   fs::remove(file);
+}
+
+std::array<int, 8> windows_of(const std::vector<unsigned char>& bytes) {
+  const fs::path file = fs::temp_directory_path() / ("fastrt-windows-" + std::to_string(getpid()) + ".exr");
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  std::array<int, 8> windows{};
+  EXPECT_NE(reader<int(const char*, int*)>("read_windows")(file.c_str(), windows.data()), 0);
+  fs::remove(file);
+  return windows;
+}
+
+TEST(EncodeLayers, SaysWhereACropLies) {
+  Frame frame = black_frame(4, 40, {Aov::id});
+  EXPECT_EQ(windows_of(encode_layers(frame)), (std::array<int, 8>{0, 0, 4, 40, 0, 0, 4, 40}));
+  frame.x = 10;
+  frame.y = 20;
+  frame.whole_width = 64;
+  frame.whole_height = 100;
+  EXPECT_EQ(windows_of(encode_layers(frame)), (std::array<int, 8>{10, 20, 4, 40, 0, 0, 64, 100}));
+}
+
+TEST(EncodeLayers, RefusesFramesWithoutTheirPixels) {
+  EXPECT_THROW(encode_layers(Frame{}), UsageError);
+  Frame codes = black_frame(2, 2, {Aov::depth});
+  codes.rgb = {};
+  EXPECT_THROW(encode_layers(codes), UsageError);
+  Frame short_plane = black_frame(2, 2, {Aov::depth});
+  short_plane.aovs[0].values.resize(3);
+  EXPECT_THROW(encode_layers(short_plane), UsageError);
+  Frame unknown = black_frame(2, 2, {Aov::depth});
+  unknown.aovs[0].aov = static_cast<Aov>(aov_count);
+  EXPECT_THROW(encode_layers(unknown), UsageError);
+}
+
+// OpenEXR reports errors while it holds its own lock.
+TEST(EncodeLayers, PassesOnWhatOpenExrSays) {
+  Frame twice = black_frame(2, 2, {Aov::depth});
+  twice.aovs.push_back(twice.aovs[0]);
+  try {
+    encode_layers(twice);
+    ADD_FAILURE() << "two channels of one name were written";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("depth"), std::string::npos) << error.what();
+  }
 }
 
 } // namespace

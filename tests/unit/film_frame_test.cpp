@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -29,6 +30,19 @@ TEST(RenderSettings, HaveRanges) {
   EXPECT_THROW(check(sized(65537, 1)), UsageError);
   EXPECT_THROW(check(sized(1, 65537)), UsageError);
   EXPECT_THROW(check(sized(1, 1, 0)), UsageError);
+  for (const int depth : {-1, 65}) {
+    RenderSettings settings = sized(1, 1);
+    settings.max_depth = depth;
+    EXPECT_THROW(check(settings), UsageError);
+  }
+  for (const float contribution : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN()}) {
+    RenderSettings settings = sized(1, 1);
+    settings.min_contribution = contribution;
+    EXPECT_THROW(check(settings), UsageError);
+  }
+  RenderSettings unknown = sized(1, 1);
+  unknown.aovs = {Aov::depth, static_cast<Aov>(aov_count)};
+  EXPECT_THROW(check(unknown), UsageError);
 }
 
 TEST(BlackFrame, SeesNothing) {

@@ -22,6 +22,17 @@ extern "C" std::size_t read_picture(const char* file, float* values, std::size_t
   return input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values) ? count : 0;
 }
 
+// The file's data window: x, y, width, height; then its display window. 0 if it can't be read.
+extern "C" int read_windows(const char* file, int* windows) {
+  const auto input = OIIO::ImageInput::open(file);
+  if (!input) return 0;
+  const OIIO::ImageSpec& spec = input->spec();
+  const int found[8] = {spec.x,      spec.y,      spec.width,      spec.height,
+                        spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+  std::copy(found, found + 8, windows);
+  return 1;
+}
+
 // An attribute of a file, cut off at `capacity` with its end; 0 if there is none.
 extern "C" int read_attribute(const char* file, const char* name, char* text, std::size_t capacity) {
   const auto input = OIIO::ImageInput::open(file);

@@ -105,6 +105,42 @@ TEST(TextureFile, TruncationAnywhereDoesNoHarm) {
   }
 }
 
+// The upper half of what is bright all over, and nothing but a fault where nothing could be read.
+TEST(TextureFile, WhatIsThereOfADamagedPictureIsUsed) {
+  const TemporaryFolder folder;
+  for (const std::string format : {"png", "jpg", "exr"}) {
+    std::vector<float> noise(3 * 128 * 128);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = 0.5F + static_cast<float>(i * i % 251) / 512.0F;
+    const std::string bytes = text_of(encode_image(format, noise, 128, 128, 1));
+    testing::internal::CaptureStderr();
+    const TextureFile half =
+        read_texture(folder.write("t." + format, bytes.substr(0, bytes.size() / 2)), TextureCode::data);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << format;
+    if (half.image == nullptr) {
+      EXPECT_EQ(format, "exr");
+      EXPECT_NE(half.fault.find("can't be read"), std::string::npos) << half.fault;
+      continue;
+    }
+    EXPECT_NE(half.fault.find("is damaged"), std::string::npos) << half.fault;
+    EXPECT_GT(half.image->pixel(0, 0, 0).r, 0.3F) << format;
+    EXPECT_EQ(half.image->pixel(0, 0, 0).a, 1.0F) << format;
+    EXPECT_EQ(half.image->pixel(0, 127, 127).a, 1.0F) << format;
+  }
+}
+
+// One byte after the other changed: libpng would print what is wrong.
+TEST(TextureFile, NothingIsPrinted) {
+  const TemporaryFolder folder;
+  const std::string bytes = text_of(encode_image("png", std::vector<float>(3 * 64, 0.25F), 8, 8, 1));
+  testing::internal::CaptureStderr();
+  for (std::size_t i = 8; i < bytes.size(); ++i) {
+    std::string changed = bytes;
+    changed[i] = static_cast<char>(changed[i] ^ 0x24);
+    read_texture(folder.write("t.png", changed), TextureCode::color);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(TextureFile, OnlyRegularFilesAreOpened) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder.path() / "fifo.png").c_str(), 0600), 0);

@@ -25,21 +25,12 @@ void put_error(EncodedPicture& result, std::string_view why) {
   result.error[count] = '\0';
 }
 
-// The file as it grows, and where errors go.
-struct Output {
-  std::vector<unsigned char> bytes;
-  EncodedPicture* result;
-};
-
-Output& output_of(exr_const_context_t context) {
-  void* data = nullptr;
-  exr_get_user_data(context, &data);
-  return *static_cast<Output*>(data);
-}
+// The file as it grows.
+using Bytes = std::vector<unsigned char>;
 
 std::int64_t write_bytes(exr_const_context_t, void* data, const void* bytes, std::uint64_t count,
                          std::uint64_t offset, exr_stream_error_func_ptr_t) {
-  std::vector<unsigned char>& file = static_cast<Output*>(data)->bytes;
+  Bytes& file = *static_cast<Bytes*>(data);
   try {
     file.resize(std::max<std::size_t>(file.size(), offset + count));
   } catch (const std::exception&) {
@@ -49,8 +40,12 @@ std::int64_t write_bytes(exr_const_context_t, void* data, const void* bytes, std
   return static_cast<std::int64_t>(count);
 }
 
-void keep_error(exr_const_context_t context, exr_result_t, const char* message) {
-  put_error(*output_of(context).result, message);
+// Where errors of this thread's file go. (To ask the context for it while it reports one would wait for ever:
+// it is locked.)
+thread_local EncodedPicture* current = nullptr;
+
+void keep_error(exr_const_context_t, exr_result_t, const char* message) {
+  if (current != nullptr) put_error(*current, message);
 }
 
 struct Finish {
@@ -71,9 +66,13 @@ std::vector<LayerChannel> in_order(const LayersToEncode& layers) {
 
 bool put_header(exr_context_t file, const LayersToEncode& layers, const std::vector<LayerChannel>& channels) {
   int part = 0;
+  const exr_attr_box2i_t whole{{0, 0}, {layers.whole_width - 1, layers.whole_height - 1}};
+  const exr_attr_box2i_t here{{layers.x, layers.y},
+                              {layers.x + layers.width - 1, layers.y + layers.height - 1}};
+  const exr_attr_v2f_t center{0, 0};
   bool done = succeeds(exr_add_part(file, nullptr, EXR_STORAGE_SCANLINE, &part)) &&
-              succeeds(exr_initialize_required_attr_simple(file, part, layers.width, layers.height,
-                                                           EXR_COMPRESSION_ZIP)) &&
+              succeeds(exr_initialize_required_attr(file, part, &whole, &here, 1, &center, 1,
+                                                    EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP)) &&
               succeeds(exr_attr_set_string(file, part, "Software", "fastrt"));
   if (layers.objects != nullptr)
     done = done && succeeds(exr_attr_set_string(file, part, "fastrt:objects", layers.objects));
@@ -84,22 +83,22 @@ bool put_header(exr_context_t file, const LayersToEncode& layers, const std::vec
   return done && succeeds(exr_write_header(file));
 }
 
-bool encode(const LayersToEncode& layers, Output& output) {
+bool encode(const LayersToEncode& layers, Bytes& bytes) {
   exr_context_initializer_t functions = EXR_DEFAULT_CONTEXT_INITIALIZER;
   functions.error_handler_fn = keep_error; // or it would print
-  functions.user_data = &output;
+  functions.user_data = &bytes;
   functions.write_fn = write_bytes;
   exr_context_t started = nullptr;
   if (!succeeds(exr_start_write(&started, "picture.exr", EXR_WRITE_FILE_DIRECTLY, &functions))) return false;
   Context file(started);
   const std::vector<LayerChannel> channels = in_order(layers);
   if (!put_header(file.get(), layers, channels)) return false;
-  const std::vector<std::vector<unsigned char>> chunks = fastrt::zip_chunks(layers, channels);
-  std::size_t size = output.bytes.size() + 8 * chunks.size();
-  for (const auto& chunk : chunks) size += chunk.size() + 8;
-  output.bytes.reserve(size);
-  int y = 0;
-  for (const auto& chunk : chunks) {
+  const std::vector<Bytes> chunks = fastrt::zip_chunks(layers, channels);
+  std::size_t size = bytes.size() + 8 * chunks.size();
+  for (const Bytes& chunk : chunks) size += chunk.size() + 8;
+  bytes.reserve(size);
+  int y = layers.y;
+  for (const Bytes& chunk : chunks) {
     if (!succeeds(exr_write_scanline_chunk(file.get(), 0, y, chunk.data(), chunk.size()))) return false;
     y += fastrt::rows_in_chunk;
   }
@@ -107,7 +106,7 @@ bool encode(const LayersToEncode& layers, Output& output) {
   return succeeds(exr_finish(&finished)); // writes where the chunks are
 }
 
-int give(const std::vector<unsigned char>& bytes, EncodedPicture& result) {
+int give(const Bytes& bytes, EncodedPicture& result) {
   result.bytes = static_cast<unsigned char*>(std::malloc(bytes.size()));
   if (result.bytes == nullptr) {
     put_error(result, "out of memory");
@@ -120,14 +119,19 @@ int give(const std::vector<unsigned char>& bytes, EncodedPicture& result) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) int fastrt_openexr_encode_1(const LayersToEncode* layers,
+extern "C" __attribute__((visibility("default"))) int fastrt_openexr_encode_2(const LayersToEncode* layers,
                                                                               EncodedPicture* result) {
+  current = result;
+  int given = 0;
   try {
-    Output output{{}, result};
-    if (encode(*layers, output)) return give(output.bytes, *result);
-    if (result->error[0] == '\0') put_error(*result, "OpenEXR gives no reason");
+    Bytes bytes;
+    if (encode(*layers, bytes))
+      given = give(bytes, *result);
+    else if (result->error[0] == '\0')
+      put_error(*result, "OpenEXR gives no reason");
   } catch (const std::exception&) {
     put_error(*result, "out of memory");
   }
-  return 0;
+  current = nullptr;
+  return given;
 }

@@ -19,11 +19,12 @@
 namespace fastrt {
 namespace {
 
-// libjpeg's errors jump to on_error; why: what it had to say.
+// libjpeg's errors jump to on_error; why: what it had to say, of the first warning or the error.
 struct JpegErrors {
   jpeg_error_mgr manager{};
   std::jmp_buf on_error{};
   char why[JMSG_LENGTH_MAX]{};
+  static_assert(sizeof why <= sizeof DecodedPicture::error);
 };
 
 [[noreturn]] void give_up(j_common_ptr jpeg) {
@@ -31,14 +32,18 @@ struct JpegErrors {
   jpeg->err->format_message(jpeg, errors.why);
   std::longjmp(errors.on_error, 1); // NOLINT(cert-err52-cpp): libjpeg's way
 }
-void say_nothing(j_common_ptr /*jpeg*/) {}
+void note_warning(j_common_ptr jpeg, int level) {
+  if (level >= 0) return; // no more than a remark
+  if (jpeg->err->num_warnings++ == 0)
+    jpeg->err->format_message(jpeg, static_cast<JpegErrors*>(jpeg->client_data)->why);
+}
 
 // Before jpeg_create_...(), which keeps them.
 template <class Jpeg>
 void catch_errors(Jpeg& jpeg, JpegErrors& errors) {
   jpeg.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = give_up;
-  errors.manager.output_message = say_nothing;
+  errors.manager.emit_message = note_warning;
   jpeg.client_data = &errors;
 }
 
@@ -46,6 +51,8 @@ void catch_errors(Jpeg& jpeg, JpegErrors& errors) {
 struct JpegReader : JpegErrors {
   jpeg_decompress_struct jpeg{};
   unsigned char* rgba = nullptr;
+  std::size_t width = 0, height = 0;
+  bool is_unusual = false;
 };
 
 bool is_usual(const jpeg_decompress_struct& jpeg) {
@@ -53,20 +60,23 @@ bool is_usual(const jpeg_decompress_struct& jpeg) {
                                       jpeg.jpeg_color_space == JCS_YCbCr || jpeg.jpeg_color_space == JCS_RGB);
 }
 
+// False if not all could be read, with reader.why; what could is kept.
 bool read(const PictureFile& file, JpegReader& reader) {
   jpeg_decompress_struct& jpeg = reader.jpeg;
   if (setjmp(reader.on_error) != 0) return false; // NOLINT(cert-err52-cpp): libjpeg's way
   jpeg_create_decompress(&jpeg);
   jpeg_mem_src(&jpeg, file.bytes, static_cast<unsigned long>(file.count));
   jpeg_read_header(&jpeg, TRUE);
-  if (!is_usual(jpeg) || !within_limits(file, jpeg.image_width, jpeg.image_height)) return false;
+  reader.width = jpeg.image_width;
+  reader.height = jpeg.image_height;
+  reader.is_unusual = !is_usual(jpeg);
+  if (reader.is_unusual || !check_size(file, reader.width, reader.height, 4, reader.why)) return false;
   jpeg.out_color_space = JCS_EXT_RGBA;
   jpeg_start_decompress(&jpeg);
-  const std::size_t row = std::size_t{4} * jpeg.output_width;
-  reader.rgba = static_cast<unsigned char*>(std::malloc(row * jpeg.output_height));
-  if (reader.rgba == nullptr) return false;
+  reader.rgba = static_cast<unsigned char*>(std::calloc(reader.width * reader.height, 4));
+  if (reader.rgba == nullptr) ERREXIT1(&jpeg, JERR_OUT_OF_MEMORY, 0);
   while (jpeg.output_scanline < jpeg.output_height) {
-    unsigned char* to = reader.rgba + jpeg.output_scanline * row;
+    unsigned char* to = reader.rgba + jpeg.output_scanline * 4 * reader.width;
     jpeg_read_scanlines(&jpeg, &to, 1);
   }
   jpeg_finish_decompress(&jpeg);
@@ -144,16 +154,16 @@ bool write(const PictureToEncode& picture, JpegWriter& writer) {
 bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept {
   JpegReader reader;
   catch_errors(reader.jpeg, reader);
-  const bool done = read(file, reader);
-  if (done) {
-    picture.rgba = reader.rgba;
-    picture.width = static_cast<int>(reader.jpeg.output_width);
-    picture.height = static_cast<int>(reader.jpeg.output_height);
-  } else {
-    std::free(reader.rgba);
-  }
+  const bool whole = read(file, reader);
   jpeg_destroy_decompress(&reader.jpeg);
-  return done;
+  if (!reader.is_unusual) std::memcpy(picture.error, reader.why, sizeof reader.why);
+  if (reader.rgba == nullptr) return false;
+  if (!whole) fill_gaps(reader.rgba, reader.width * reader.height, 1);
+  picture.rgba = reader.rgba;
+  picture.is_damaged = whole ? 0 : 1;
+  picture.width = static_cast<int>(reader.width);
+  picture.height = static_cast<int>(reader.height);
+  return true;
 }
 
 bool encode_jpeg(const PictureToEncode& picture, EncodedPicture& result) noexcept {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 extern "C" __attribute__((visibility("default"))) int
-fastrt_png_jpeg_decode_1(const fastrt::PictureFile* file, fastrt::DecodedPicture* picture) {
+fastrt_png_jpeg_decode_2(const fastrt::PictureFile* file, fastrt::DecodedPicture* picture) {
   const std::string_view format = file->format;
   if (format == "png") return fastrt::decode_png(*file, *picture) ? 1 : 0;
   return format == "jpeg" && fastrt::decode_jpeg(*file, *picture) ? 1 : 0;
