@@ -14,4 +14,5 @@ configure_package_config_file(
   INSTALL_DESTINATION ${fastrt_config_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/fastrtConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/fastrtConfig.cmake ${PROJECT_BINARY_DIR}/fastrtConfigVersion.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/module_folder.cpp
   DESTINATION ${fastrt_config_folder})

@@ -10,6 +10,9 @@
 #include <filesystem>
 #include <vector>
 
+// Of an installed library, by the program that uses it (cmake/module_folder.cpp).
+extern "C" __attribute__((weak)) const char fastrt_module_folder[];
+
 namespace fastrt {
 
 namespace {
@@ -35,6 +38,7 @@ std::vector<fs::path> module_folders() {
     if (!folder.has_relative_path()) break;
     folder = folder.parent_path();
   }
+  if (const char* installed = fastrt_module_folder; installed != nullptr) folders.emplace_back(installed);
   folders.emplace_back(FASTRT_MODULE_DIR);
   return folders;
 }

@@ -13,7 +13,11 @@ flags=$(sed -n 's/^CMAKE_CXX_FLAGS:[A-Z]*=//p' "$build/CMakeCache.txt")
 "$cmake" -S "$source/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/install" \
   -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_BUILD_TYPE=Release
 "$cmake" --build "$scratch/build"
-"$scratch/build/consumer"
+# Far from the build tree and the installation, whose modules it has to find.
+elsewhere=$(mktemp -d)
+trap 'rm -rf "$elsewhere"' EXIT
+cp "$scratch/build/consumer" "$elsewhere"
+(cd "$elsewhere" && ./consumer)
 
 cd "$scratch"
 "$scratch/install/bin/fastrt" "$source/scenes/spheres.obj" -r 32x24 -o installed.png

@@ -50,11 +50,19 @@ bool renders_as_expected(const fastrt::Tracer& tracer) {
          frame.rgb[3 * center] > frame.rgb[3 * center + 1];
 }
 
+// EXR, HDR and JPEG are written by modules.
+bool writes_as_expected() {
+  const std::array<float, 3> pixel{0.25F, 0.5F, 1};
+  for (const char* format : {"png", "exr", "hdr", "jpg"})
+    if (fastrt::encode_image(format, pixel, 1, 1).empty()) return false;
+  return true;
+}
+
 } // namespace
 
 int main() {
   const fastrt::Tracer tracer(make_scene());
-  if (!hits_as_expected(tracer) || !renders_as_expected(tracer)) {
+  if (!hits_as_expected(tracer) || !renders_as_expected(tracer) || !writes_as_expected()) {
     std::puts("the installed library gives wrong answers");
     return 1;
   }
