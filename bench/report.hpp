@@ -2,7 +2,6 @@
 // What the comparison found, for people and for programs.
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>

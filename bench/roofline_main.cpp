@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "bench/arguments.hpp"
 #include "bench/embree_scene.hpp"

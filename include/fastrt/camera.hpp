@@ -41,7 +41,7 @@ struct Camera {
 struct CameraAxes {
   Vec3 u, v, w;
 };
-// Throws as make_camera_frame does.
+// Throws InputError where eye, look_at and up give no axes.
 CameraAxes camera_axes(const Camera& camera);
 
 // The camera made ready for one resolution. The ray through image point (px, py), in pixels from the upper

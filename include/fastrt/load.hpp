@@ -11,7 +11,7 @@
 namespace fastrt {
 
 struct LoadOptions {
-  int threads = 0;                   // 0 takes every core
+  int threads = 0;                   // as of RenderSettings
   bool strict = false;               // warnings become InputError
   bool allow_external_files = false; // files that a scene names, outside its folder
   bool tr_is_opacity = false;        // MTL: Tr 1 means opaque
@@ -47,18 +47,22 @@ SceneDesc load_scene(const std::filesystem::path& path, const LoadOptions& optio
 Aabb bounds_of(const SceneDesc& desc);
 
 // A view of the scene that shows all of it: from a three-quarter angle above, turned so that `up` is up.
-// aspect: width over height. An empty box gives the default camera.
+// aspect: width over height. An empty box gives the default camera. Throws InputError for a field of view
+// outside (0, 180), an aspect that is not greater than 0, and an `up` of 0.
 Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Vec3& up = {0.0F, 1.0F, 0.0F});
 
-// The view height with which an orthographic camera shows the whole box. Throws as camera_axes does.
+// The view height with which an orthographic camera shows the whole box. Throws as camera_axes does, and for
+// an aspect that is not greater than 0.
 float orthographic_height(const Aabb& bounds, const Camera& camera, float aspect);
 
 // Light for a scene that has none: a key light with shadows, a soft fill from the camera's side without, and
-// where the scene does not say, ambient light and a dark grey background.
+// where the scene does not say, ambient light and a dark grey background. Throws InputError for a degenerate
+// camera.
 void add_default_lights(SceneDesc& desc, const Aabb& bounds, const Camera& camera);
 
 // The lights that a scene's own surfaces are: one of LightKind::mesh for each material of some triangle that
-// emits more than `brighter_than` in some channel. Materials whose emission is a texture are left out.
+// emits more than `brighter_than` in some channel. Materials whose emission is a texture are left out, and
+// triangles whose vertices the description does not hold.
 std::vector<Light> emissive_lights(const SceneDesc& desc, float brighter_than = 0);
 
 } // namespace fastrt

@@ -54,7 +54,7 @@ struct RenderSettings {
   float caustic_radius = 0; // over which they are averaged, in the scene's unit; 0: chosen by their density
   PixelFormat pixel_format = PixelFormat::linear;
   std::vector<Aov> aovs; // which to record; with several samples this takes one ray more a pixel
-  int threads = 0;       // 0 takes every core
+  int threads = 0;       // 0: every core, or as many as OMP_NUM_THREADS says; at most four a core
   // Both may be null. `cancelled` is read between tiles and photons; `progress` gets the share of them that
   // is done, 0..1, from one thread at a time.
   const std::atomic<bool>* cancelled = nullptr;
@@ -105,7 +105,8 @@ struct Frame {
 };
 
 // Renders with the tracer's kernels. The picture depends on the scene, the camera and the settings alone: not
-// on the ISA and not on the number of threads.
+// on the ISA and not on the number of threads. Throws UsageError for settings out of their ranges, InputError
+// for a degenerate camera, and what `progress` throws.
 Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings);
 
 // The same picture by the naive scalar path: every primitive tested for every ray, no tree, no SIMD. For

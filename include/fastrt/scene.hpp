@@ -204,7 +204,7 @@ public:
   std::uint32_t add_texture(Texture texture);
   // A mesh of its own object. positions: one per vertex; indices: three per triangle, into positions;
   // normals, uvs and colors: empty or one per vertex. Returns the object id. Throws InputError for an index
-  // out of range or a count that is no multiple of three.
+  // out of range and for counts that don't fit.
   std::uint32_t add_mesh(std::span<const Vec3> positions, std::span<const std::uint32_t> indices,
                          std::uint32_t material, std::span<const Vec3> normals = {}, std::string name = {},
                          std::span<const Vec2> uvs = {}, std::span<const Vec3> colors = {});
@@ -228,7 +228,7 @@ public:
   void begin_prototype();
   std::uint32_t end_prototype();
   // Shows a prototype as an object of its own. material: of all of it; no_index leaves each primitive its
-  // own. Not within a prototype.
+  // own. Throws InputError within a prototype.
   std::uint32_t add_instance(std::uint32_t prototype, const Affine& to_world,
                              std::uint32_t material = no_index, std::string name = {});
   void add_light(const Light& light) { desc_.lights.push_back(light); }

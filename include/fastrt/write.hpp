@@ -20,11 +20,12 @@ void check_image_path(const std::filesystem::path& path);
 // Writes a picture: rgb holds 3 * width * height linear values, rows from the top. 8-bit formats (png, ppm,
 // jpg, tif) get the sRGB curve, clamped to 0..1; exr, hdr and pfm stay linear. The file appears whole or not
 // at all: encoded in memory, written beside its place, synced and renamed. Throws OutputError with the
-// system's reason. threads: 0 takes every core.
+// system's reason, and UsageError for an unknown extension or another number of values. threads: as of
+// RenderSettings.
 void write_image(const std::filesystem::path& path, std::span<const float> rgb, int width, int height,
                  int threads = 0);
 
-// The same bytes without a file. format: one of image_extensions().
+// The same bytes without a file. format: one of image_extensions(). Throws as write_image does.
 std::vector<unsigned char> encode_image(const std::string& format, std::span<const float> rgb, int width,
                                         int height, int threads = 0);
 

@@ -2,7 +2,6 @@
 #include "src/accel/linked_tree.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace fastrt {
 

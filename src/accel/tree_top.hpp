@@ -5,7 +5,6 @@
 #include "src/accel/tree.hpp"
 
 #include <cstddef>
-#include <cstdint>
 
 namespace fastrt {
 

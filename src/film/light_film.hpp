@@ -4,7 +4,6 @@
 
 #include <fastrt/render.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

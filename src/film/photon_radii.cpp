@@ -2,7 +2,6 @@
 #include "src/film/photon_radii.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fastrt {
 namespace {

@@ -8,8 +8,6 @@
 #include "src/trace/point_media.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace fastrt {
 namespace {

@@ -47,6 +47,10 @@ Vec3d half_extent(const Aabb& bounds, const Vec3d& center) {
   return Vec3d(largest > 0.0 ? 1e-3 * largest : 1.0);
 }
 
+void check_aspect(float aspect) {
+  if (!(aspect > 0.0F && std::isfinite(aspect))) throw InputError("the aspect must be greater than 0");
+}
+
 // For one image axis: the points (x, z), z along the view, fit into |x - shift| <= slope * (distance + z).
 struct Fit {
   double slope;
@@ -64,7 +68,7 @@ struct Fit {
 
 Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Vec3& up) {
   check_field_of_view(fov_degrees);
-  if (!(aspect > 0.0F && std::isfinite(aspect))) throw InputError("the aspect must be greater than 0");
+  check_aspect(aspect);
   const double up_length = glm::length(Vec3d(up));
   if (!(up_length > 0.0 && std::isfinite(up_length)))
     throw InputError("degenerate camera: the up vector must be finite and not 0");
@@ -98,6 +102,7 @@ Camera frame_scene(const Aabb& bounds, float fov_degrees, float aspect, const Ve
 }
 
 float orthographic_height(const Aabb& bounds, const Camera& camera, float aspect) {
+  check_aspect(aspect);
   const CameraAxes axes = camera_axes(camera);
   if (bounds.empty()) return Camera{}.view_height;
   double half = 0.0;

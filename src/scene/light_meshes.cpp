@@ -47,30 +47,59 @@ Vec3 placed(const Affine& map, const Vec3& point) {
               Vec3d(map.origin));
 }
 
-void gather_shown_triangles(const SceneDesc& desc, std::uint32_t material, Emitters& emitters) {
-  const TriangleColumns& triangles = desc.triangles;
-  for (std::size_t k = 0; k < desc.instances.size(); ++k) {
-    const Prototype& prototype = desc.prototypes[desc.instances.prototype[k]];
-    const std::uint32_t own = desc.instances.material[k];
-    if (own != no_index && own != material) continue;
-    const Affine& map = desc.instances.to_world[k];
-    for (std::size_t i = prototype.begin[0]; i < prototype.end[0]; ++i)
-      if (own == material || triangles.material[i] == material)
-        emitters.add(placed(map, desc.positions[triangles.v0[i]]),
-                     placed(map, desc.positions[triangles.v1[i]]),
-                     placed(map, desc.positions[triangles.v2[i]]));
+// A scene's triangles, which need not have been checked: without those that have no three vertices.
+class Corners {
+public:
+  explicit Corners(const SceneDesc& desc)
+      : desc_(desc),
+        vertices_(std::min({desc.positions.x.size(), desc.positions.y.size(), desc.positions.z.size()})) {
+    const TriangleColumns& t = desc.triangles;
+    count_ = std::min({t.v0.size(), t.v1.size(), t.v2.size(), t.material.size()});
+  }
+
+  std::size_t triangle_count() const { return count_; }
+
+  bool find(std::size_t triangle, Vec3 (&corners)[3]) const {
+    const TriangleColumns& t = desc_.triangles;
+    const std::uint32_t vertices[] = {t.v0[triangle], t.v1[triangle], t.v2[triangle]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (vertices[i] >= vertices_) return false;
+      corners[i] = desc_.positions[vertices[i]];
+    }
+    return true;
+  }
+
+private:
+  const SceneDesc& desc_;
+  std::size_t vertices_, count_ = 0;
+};
+
+void gather_shown_triangles(const SceneDesc& desc, const Corners& corners, std::uint32_t material,
+                            Emitters& emitters) {
+  const InstanceColumns& instances = desc.instances;
+  const std::size_t count = std::min({instances.size(), instances.material.size(), instances.to_world.size()});
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t own = instances.material[k];
+    if (instances.prototype[k] >= desc.prototypes.size() || (own != no_index && own != material)) continue;
+    const Prototype& prototype = desc.prototypes[instances.prototype[k]];
+    const Affine& map = instances.to_world[k];
+    const std::size_t end = std::min<std::size_t>(prototype.end[0], corners.triangle_count());
+    Vec3 at[3];
+    for (std::size_t i = prototype.begin[0]; i < end; ++i)
+      if ((own == material || desc.triangles.material[i] == material) && corners.find(i, at))
+        emitters.add(placed(map, at[0]), placed(map, at[1]), placed(map, at[2]));
   }
 }
 
 // The triangles of a material that have an area, and their areas.
 std::vector<double> gather_triangles(const SceneDesc& desc, std::uint32_t material, LightMesh& mesh) {
   Emitters emitters{mesh, {}};
-  const TriangleColumns& triangles = desc.triangles;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    if (triangles.material[i] == material && !in_prototype(desc, i))
-      emitters.add(desc.positions[triangles.v0[i]], desc.positions[triangles.v1[i]],
-                   desc.positions[triangles.v2[i]]);
-  gather_shown_triangles(desc, material, emitters);
+  const Corners corners(desc);
+  Vec3 at[3];
+  for (std::size_t i = 0; i < corners.triangle_count(); ++i)
+    if (desc.triangles.material[i] == material && !in_prototype(desc, i) && corners.find(i, at))
+      emitters.add(at[0], at[1], at[2]);
+  gather_shown_triangles(desc, corners, material, emitters);
   return emitters.areas;
 }
 

@@ -4,7 +4,6 @@
 #include "src/scene/shapes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace fastrt {

@@ -8,7 +8,6 @@
 #include <fastrt/scene.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace fastrt {

@@ -2,6 +2,8 @@
 #include <fastrt/error.hpp>
 #include <fastrt/isa.hpp>
 
+#include <cpuid.h>
+
 #include <array>
 
 namespace fastrt {
@@ -30,6 +32,12 @@ std::string list_available() {
   return list;
 }
 
+// Which not every compiler's own detection knows.
+bool has_lzcnt() noexcept {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(0x80000001U, &a, &b, &c, &d) != 0 && (c & bit_LZCNT) != 0;
+}
+
 } // namespace
 
 const char* isa_name(Isa isa) noexcept { return row_of(isa).name; }
@@ -44,7 +52,7 @@ bool isa_available(Isa isa) noexcept {
     return __builtin_cpu_supports("sse4.2") != 0;
   case Isa::avx2:
     return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
-           __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
+           __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0 && has_lzcnt();
   case Isa::avx512:
     return isa_available(Isa::avx2) && __builtin_cpu_supports("avx512f") != 0 &&
            __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&

@@ -7,7 +7,6 @@
 
 #include <fastrt/scene.hpp>
 
-#include <cstdint>
 
 namespace fastrt {
 

@@ -2,7 +2,6 @@
 #include "src/scene/texture_numbers.hpp"
 #include "src/trace/tracer_parts.hpp"
 
-#include <cmath>
 #include <tuple>
 
 namespace fastrt {

@@ -4,7 +4,6 @@
 #include "src/trace/point_media.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 namespace fastrt {

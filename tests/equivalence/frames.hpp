@@ -10,7 +10,6 @@
 
 #include <ostream>
 #include <string>
-#include <utility>
 
 namespace fastrt::test {
 

@@ -6,7 +6,6 @@
 #include "tests/unit/shape_scenes.hpp"
 
 #include <utility>
-#include <vector>
 
 namespace fastrt::test {
 

@@ -102,6 +102,8 @@ TEST(FrameScene, NonsenseIsRefused) {
   EXPECT_THROW(frame_scene(boxes[0], 40, 0), InputError);
   EXPECT_THROW(frame_scene(boxes[0], 40, infinity), InputError);
   EXPECT_THROW(frame_scene(boxes[0], 40, 1, {0, 0, 0}), InputError);
+  for (const float aspect : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), infinity})
+    EXPECT_THROW(orthographic_height(boxes[0], Camera{}, aspect), InputError);
 }
 
 // The most that a diffuse grey surface of the given normal gets.

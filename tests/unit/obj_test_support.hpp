@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>

@@ -4,7 +4,6 @@
 #include "src/modules/pictures.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 namespace fastrt {
