@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/scene/camera_check.hpp"
+#include "src/scene/finite.hpp"
 
 #include <fastrt/camera.hpp>
 #include <fastrt/error.hpp>
@@ -15,8 +16,6 @@ using Vec3d = glm::dvec3;
 
 // The sine of the angle between the view and `up` below which rounding decides where the right hand is.
 constexpr double least_sine = 1e-6;
-
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 [[noreturn]] void refuse(const char* why) { throw InputError(std::string("degenerate camera: ") + why); }
 

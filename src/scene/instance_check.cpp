@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prototypes and instances before anything is traced.
+#include "src/scene/finite.hpp"
 #include "src/scene/scene_check.hpp"
 #include "src/scene/shapes.hpp"
 
@@ -55,8 +56,6 @@ void check_index(std::size_t i, std::uint32_t index, std::size_t limit, bool opt
          std::string("refers to ") + what + " " + std::to_string(index) + ", but there are " +
              std::to_string(limit));
 }
-
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void check_map(std::size_t i, const Affine& map) {
   if (!(is_finite(map.x) && is_finite(map.y) && is_finite(map.z) && is_finite(map.origin)))

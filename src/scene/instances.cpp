@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prototypes and instances as rays meet them.
+#include "src/scene/finite.hpp"
 #include "src/scene/shapes.hpp"
 
 #include <algorithm>
@@ -22,8 +23,6 @@ double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 Vec3d weighed(const Affine& map, const Vec3d& v) {
   return (glm::abs(Vec3d(map.x)) * v.x + glm::abs(Vec3d(map.y)) * v.y) + glm::abs(Vec3d(map.z)) * v.z;
 }
-
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // How much rounding grows on the way to object space and back: by what the maps there and back add up at
 // most; and by how differently the map stretches along its axes, for a triangle's test mixes all coordinates

@@ -77,7 +77,8 @@ private:
 void gather_shown_triangles(const SceneDesc& desc, const Corners& corners, std::uint32_t material,
                             Emitters& emitters) {
   const InstanceColumns& instances = desc.instances;
-  const std::size_t count = std::min({instances.size(), instances.material.size(), instances.to_world.size()});
+  const std::size_t count =
+      std::min({instances.size(), instances.material.size(), instances.to_world.size()});
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t own = instances.material[k];
     if (instances.prototype[k] >= desc.prototypes.size() || (own != no_index && own != material)) continue;

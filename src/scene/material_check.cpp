@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/finite.hpp"
 #include "src/scene/printable.hpp"
 #include "src/scene/scene_check.hpp"
 
@@ -9,8 +10,6 @@
 namespace fastrt {
 
 namespace {
-
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_colour(const Vec3& v) { return is_finite(v) && v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F; }
 

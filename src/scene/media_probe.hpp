@@ -5,7 +5,7 @@
 
 namespace fastrt {
 
-// Which ways a point looks to find out which media it is in (docs/numerics.md, "Where a ray starts"). All
+// Which ways a point looks to find out which media it is in (docs/numerics.md, "Where rays start"). All
 // point up, whichever axis that is, so that a sheet of water without a bottom is a surface to be under or
 // above; and none lies in a plane or along an edge that a model is likely to have.
 inline constexpr int media_probes = 3;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cones, disks, polygons and planes before anything is traced.
+#include "src/scene/finite.hpp"
 #include "src/scene/scene_check.hpp"
 #include "src/scene/shapes.hpp"
 
@@ -10,8 +11,6 @@
 
 namespace fastrt {
 namespace {
-
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 [[noreturn]] void refuse(const char* what, std::size_t i, const std::string& why) {
   throw InputError(std::string(what) + " " + std::to_string(i) + ": " + why);

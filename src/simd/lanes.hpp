@@ -100,12 +100,6 @@ FASTRT_INLINE Mask<W> from_bits(std::uint32_t bits) {
   }
 }
 
-// The lanes whose bit i is set.
-template <class I>
-FASTRT_INLINE std::uint32_t set_bits(const I& lanes, int i) {
-  return to_bits(simd::bool_cast((lanes << (31 - i)) < I(0)));
-}
-
 template <class F>
 FASTRT_INLINE F load(const float* from) {
   return F::load_unaligned(from);

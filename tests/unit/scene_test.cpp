@@ -242,6 +242,20 @@ TEST(Scene, BoundsOfAnUncheckedDescriptionIgnoreBadIndices) {
   EXPECT_EQ(bounds.upper, Vec3(1.0F, 2.0F, 3.0F));
 }
 
+TEST(Scene, LightsOfAnUncheckedDescriptionIgnoreBadIndices) {
+  SceneDesc desc = small_scene();
+  const std::uint32_t material = desc.triangles.material[0];
+  desc.materials[material].emission = Vec3(2.0F);
+  EXPECT_EQ(emissive_lights(desc).size(), 1U);
+  desc.instances.prototype.push_back(5); // there are no prototypes
+  desc.instances.to_world.push_back(Affine{});
+  desc.instances.material.push_back(material);
+  desc.instances.object.push_back(0);
+  EXPECT_EQ(emissive_lights(desc).size(), 1U);
+  for (std::size_t i = 0; i < desc.triangles.size(); ++i) desc.triangles.v2[i] = 500000000;
+  EXPECT_TRUE(emissive_lights(desc).empty());
+}
+
 TEST(InputErrorText, NamesThePlaceThatIsKnown) {
   EXPECT_STREQ(InputError("a.obj", 17, 5, "bad").what(), "a.obj:17:5: bad");
   EXPECT_STREQ(InputError("a.obj", 17, 0, "bad").what(), "a.obj:17: bad");
