@@ -33,14 +33,17 @@ struct Range {
 
 using Ranges = std::array<Range, 3>; // of the channels
 
-Ranges ranges_of(const AovPlane& plane, int threads) {
+// Of shown(value), for all values.
+template <class Shown>
+Ranges ranges_of(const AovPlane& plane, int threads, const Shown& shown) {
   const auto channels = static_cast<std::size_t>(aov_info(plane.aov).channels);
   const std::size_t pixels = pixel_count(plane);
   std::vector<Ranges> of_pieces(piece_count(pixels));
   for_pieces(pixels, threads, [&](std::size_t piece, std::size_t first, std::size_t last) {
     Ranges ranges;
     for (std::size_t i = first * channels; i < last * channels; ++i)
-      ranges[i % channels].add(plane.values.empty() ? static_cast<float>(plane.ids[i]) : plane.values[i]);
+      ranges[i % channels].add(
+          shown(plane.values.empty() ? static_cast<float>(plane.ids[i]) : plane.values[i]));
     of_pieces[piece] = ranges;
   });
   Ranges all;
@@ -50,6 +53,10 @@ Ranges ranges_of(const AovPlane& plane, int threads) {
       all[c].add(ranges[c].high);
     }
   return all;
+}
+
+Ranges ranges_of(const AovPlane& plane, int threads) {
+  return ranges_of(plane, threads, [](float value) { return value; });
 }
 
 // A share of 255 as a code; 0 for NaN.
@@ -94,12 +101,15 @@ Codes counts(const AovPlane& plane, int threads) {
                [&](std::size_t pixel) { return range.place(static_cast<float>(plane.ids[pixel])); });
 }
 
-// Near is bright; what is seen is never black.
+// Near is bright; what is seen is never black. By 1 / depth, or a plane's horizon would leave nothing for the
+// rest.
 Codes depths(const AovPlane& plane, int threads) {
-  const Range range = ranges_of(plane, threads)[0];
+  const auto nearness = [](float depth) { return std::isfinite(depth) ? 1.0F / depth : infinity; };
+  const Range range = ranges_of(plane, threads, nearness)[0];
   return greys(plane, threads, [&](std::size_t pixel) {
     const float depth = plane.values[pixel];
-    return std::isfinite(depth) ? 1.0F - 0.9F * range.place(depth) : 0.0F;
+    if (!std::isfinite(depth)) return 0.0F;
+    return range.high > range.low ? 0.1F + 0.9F * range.place(nearness(depth)) : 1.0F;
   });
 }
 

@@ -75,6 +75,10 @@ TEST(AovPicture, ShowsNumbersInTheirRange) {
   };
   EXPECT_EQ(codes_of({Aov::depth, {2, 4, infinity}, {}}),
             (std::vector<int>{255, 255, 255, 26, 26, 26, 0, 0, 0}));
+  EXPECT_EQ(codes_of({Aov::depth, {1, 2, 1e9F}, {}}),
+            (std::vector<int>{255, 255, 255, 140, 140, 140, 26, 26, 26}));
+  EXPECT_EQ(codes_of({Aov::depth, {3, 3, infinity}, {}}),
+            (std::vector<int>{255, 255, 255, 255, 255, 255, 0, 0, 0}));
   EXPECT_EQ(codes_of({Aov::normal, {0, 0, 1, 0, 0, 0}, {}}), (std::vector<int>{128, 128, 255, 0, 0, 0}));
   EXPECT_EQ(codes_of({Aov::cost, {}, {1, 5}}), (std::vector<int>{51, 51, 51, 255, 255, 255}));
   EXPECT_EQ(codes_of({Aov::shadow, {1, 0.5F, 0}, {}}), (std::vector<int>{255, 128, 0}));
