@@ -17,6 +17,10 @@ std::vector<std::string> image_extensions();
 // (no such folder, no permission, a folder of that name). Writes nothing that stays.
 void check_image_path(const std::filesystem::path& path);
 
+// Throws OutputError for a picture that a format can't hold: a JPEG has at most 65500 pixels on a side.
+// format: one of image_extensions().
+void check_picture_size(const std::string& format, int width, int height);
+
 // Writes a picture: rgb holds 3 * width * height linear values, rows from the top. 8-bit formats (png, ppm,
 // jpg, tif) get the sRGB curve, clamped to 0..1; exr, hdr and pfm stay linear. The file appears whole or not
 // at all: encoded in memory, written beside its place, synced and renamed. Throws OutputError with the

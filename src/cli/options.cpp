@@ -310,6 +310,11 @@ void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::
 
 } // namespace
 
+Resolution frame_size(const Options& options) {
+  if (!options.crop) return {options.width, options.height};
+  return {options.crop->x1 - options.crop->x0, options.crop->y1 - options.crop->y0};
+}
+
 void check_crop(const Options& options) {
   if (options.crop && (options.crop->x1 > options.width || options.crop->y1 > options.height))
     throw UsageError("--crop: it reaches beyond the picture of " + std::to_string(options.width) + "x" +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/cli/light_option.hpp"
+#include "src/cli/parse.hpp"
 
 #include <fastrt/camera.hpp>
 #include <fastrt/math.hpp>
@@ -72,6 +73,9 @@ struct Options {
   // What was asked for beyond what is served, and served as far as it goes.
   std::vector<std::string> warnings;
 };
+
+// The picture's, or the part of it that --crop asks for.
+Resolution frame_size(const Options& options);
 
 // Throws UsageError for a part that reaches beyond the picture. To be asked when the picture's size is
 // settled, which may be the scene's.

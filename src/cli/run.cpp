@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/run.hpp"
 
-#include "src/cli/extra_files.hpp"
+#include "src/cli/output_files.hpp"
 #include "src/cli/progress.hpp"
 #include "src/cli/report.hpp"
 #include "src/cli/save.hpp"
@@ -77,8 +77,7 @@ std::uint64_t bytes_per_pixel(const Options& options, PixelFormat format) {
 
 void check_image_size(const Options& options, PixelFormat format) {
   const std::uint64_t pixel_bytes = bytes_per_pixel(options, format);
-  const int width = options.crop ? options.crop->x1 - options.crop->x0 : options.width;
-  const int height = options.crop ? options.crop->y1 - options.crop->y0 : options.height;
+  const auto [width, height] = frame_size(options);
   const std::uint64_t bytes =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes;
   if (bytes > static_cast<std::uint64_t>(options.max_image_mb) << 20U) {
@@ -86,20 +85,6 @@ void check_image_size(const Options& options, PixelFormat format) {
                      std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB, more than --max-image-mb " +
                      std::to_string(options.max_image_mb));
   }
-}
-
-// Where the picture goes, checked before the work is done; empty for nowhere.
-fs::path choose_output(const Options& options) {
-  if (options.output == "none") return {};
-  fs::path path = options.output;
-  if (path.empty()) path = fs::path(options.scene).stem();
-  if (options.output.empty()) path += path.empty() ? "scene.png" : ".png";
-  std::error_code error;
-  if (fs::equivalent(path, options.scene, error)) {
-    throw UsageError("the output '" + path.string() + "' is the scene itself");
-  }
-  check_image_path(path);
-  return path;
 }
 
 RenderSettings render_settings(const Options& options, PixelFormat format, int threads) {
@@ -153,11 +138,6 @@ void report(const Options& options, const RunStats& stats, bool to_stderr) {
   } else {
     print_out(text);
   }
-}
-
-std::vector<unsigned char> encode_picture(const Frame& frame, const std::string& format, int threads) {
-  return frame.rgb.empty() ? encode_image(format, frame.srgb8, frame.width, frame.height, threads)
-                           : encode_image(format, frame.rgb, frame.width, frame.height, threads);
 }
 
 void describe(const Options& options, const Tracer& tracer, const Frame& frame, RunStats& stats) {
@@ -222,9 +202,9 @@ int run(const Options& given, Clock::time_point start) {
   tracer_settings.isa = choose_isa(options);
   tracer_settings.culling = options.culling;
   tracer_settings.threads = stats.threads = choose_threads(options);
-  const fs::path output = choose_output(options);
+  const OutputFiles files = choose_output_files(options);
+  const fs::path& output = files.picture;
   check_image_size(options, choose_pixel_format(options, output, tracer_settings.isa));
-  const ExtraFiles extra_files = choose_extra_files(options, output);
 
   Clock::time_point phase_start = Clock::now();
   SceneDesc desc = read_scene(options, stats.threads);
@@ -234,6 +214,7 @@ int run(const Options& given, Clock::time_point start) {
   const PixelFormat pixel_format = choose_pixel_format(options, output, tracer_settings.isa);
   check_image_size(options, pixel_format);
   check_crop(options);
+  check_output_sizes(files, options);
   const Camera camera = choose_camera(options, bounds, desc);
   light_scene(options, bounds, camera, desc);
   stats.read_seconds = seconds_since(phase_start);
@@ -261,11 +242,9 @@ int run(const Options& given, Clock::time_point start) {
   enter_phase(Phase::idle);
 
   phase_start = Clock::now();
-  save_extra_files(extra_files, frame, stats.threads);
+  save_extra_files(files, frame, stats.threads);
   if (!output.empty() && signal_received() == 0) {
-    save(output, extra_files.layers_in_picture
-                     ? encode_layers(frame, tracer.scene().desc().object_names, stats.threads)
-                     : encode_picture(frame, format_of(output), stats.threads));
+    save_picture(files, frame, tracer.scene().desc().object_names, stats.threads);
     stats.output = output.string();
   }
   stats.write_seconds = seconds_since(phase_start);

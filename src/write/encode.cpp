@@ -26,6 +26,7 @@ void check_format(const std::string& format) {
 }
 
 Bytes encode(const std::string& format, const Picture& picture) {
+  check_picture_size(format, picture.width, picture.height);
   if (format == "png") return encode_png(picture);
   if (format == "ppm") return encode_ppm(picture);
   if (format == "pfm") return encode_pfm(picture);
@@ -38,6 +39,13 @@ Bytes encode(const std::string& format, const Picture& picture) {
 
 std::vector<std::string> image_extensions() {
   return {"png", "ppm", "pfm", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"};
+}
+
+void check_picture_size(const std::string& format, int width, int height) {
+  constexpr int most_of_jpeg = 65500; // JPEG_MAX_DIMENSION of libjpeg
+  const bool is_jpeg = format == "jpg" || format == "jpeg";
+  if (is_jpeg && (width > most_of_jpeg || height > most_of_jpeg))
+    throw OutputError("a JPEG picture has at most 65500 pixels on a side");
 }
 
 bool is_8bit_format(const std::string& format) {

@@ -35,11 +35,6 @@ struct Free {
   void operator()(unsigned char* bytes) const { std::free(bytes); }
 };
 
-void check_limits(const std::string& format, const Picture& picture) {
-  if (is_jpeg(format) && (picture.width > 65500 || picture.height > 65500))
-    throw OutputError("a JPEG picture has at most 65500 pixels on a side");
-}
-
 template <class Request>
 Bytes encode(int (*encoder)(const Request*, EncodedPicture*), const Request& request, const char* format) {
   EncodedPicture result{};
@@ -53,7 +48,6 @@ Bytes encode(int (*encoder)(const Request*, EncodedPicture*), const Request& req
 } // namespace
 
 Bytes encode_with_module(const std::string& format, const Picture& picture) {
-  check_limits(format, picture);
   Bytes codes;
   if (is_jpeg(format)) {
     codes.resize(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));

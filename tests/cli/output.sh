@@ -107,6 +107,16 @@ unwritable() {
   fi
 }
 
+# A scene that is missing shows that nobody looked for it yet.
+too_large_for_the_format() {
+  expect_error 4 '65500' missing.obj -r 65501x2 -o a.jpg
+  expect_error 4 '65500' missing.obj -r 2x65501 -o none --signature=a.JPEG
+  expect_error 3 'missing.obj' missing.obj -r 65536x2 --crop 18,0,65518,2 -o a.jpg
+  expect_error 3 'missing.obj' missing.obj -r 65536x2 -o a.tif
+  printf '[picture]\nwidth = 65536\nheight = 2\nspp = 65536\n[[sphere]]\n' >wide.toml
+  expect_error 4 '65500' wide.toml -o a.jpg
+}
+
 output_is_the_scene() {
   ln tiny.obj same.png
   ln -s tiny.obj linked.png
