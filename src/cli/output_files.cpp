@@ -3,11 +3,14 @@
 
 #include "src/cli/save.hpp"
 #include "src/film/srgb.hpp"
+#include "src/write/output_file.hpp"
 
 #include <fastrt/error.hpp>
+#include <fastrt/load.hpp>
 #include <fastrt/write.hpp>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <system_error>
 
@@ -15,6 +18,17 @@ namespace fastrt::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Throws UsageError for what is read; what the scene's text names, such as textures, is not known yet.
+void refuse_inputs(const Options& options, const fs::path& path) {
+  std::error_code error;
+  const fs::path sidecar = options.sidecar ? find_sidecar(options.scene) : fs::path();
+  if (fs::equivalent(path, options.scene, error))
+    throw UsageError("the output '" + path.string() + "' is the scene itself");
+  if (!sidecar.empty() && fs::equivalent(path, sidecar, error))
+    throw UsageError("the output '" + path.string() + "' is '" + sidecar.string() +
+                     "', which is read as a part of the scene");
+}
 
 // "dir/scene.png" and "normal" make "dir/scene-normal.png".
 fs::path beside(const Options& options, const fs::path& output, const char* option, const char* name) {
@@ -26,8 +40,7 @@ fs::path beside(const Options& options, const fs::path& output, const char* opti
   fs::path stem = output.empty() ? fs::path(options.scene).stem() : output.parent_path() / output.stem();
   if (stem.empty()) stem = "scene";
   stem += std::string("-") + name + ".png";
-  if (fs::equivalent(stem, options.scene, error))
-    throw UsageError("the output '" + stem.string() + "' is the scene itself");
+  refuse_inputs(options, stem);
   check_image_path(stem);
   return stem;
 }
@@ -56,10 +69,7 @@ fs::path choose_picture(const Options& options) {
   fs::path path = options.output;
   if (path.empty()) path = fs::path(options.scene).stem();
   if (options.output.empty()) path += path.empty() ? "scene.png" : ".png";
-  std::error_code error;
-  if (fs::equivalent(path, options.scene, error)) {
-    throw UsageError("the output '" + path.string() + "' is the scene itself");
-  }
+  refuse_inputs(options, path);
   check_image_path(path);
   return path;
 }
@@ -67,11 +77,23 @@ fs::path choose_picture(const Options& options) {
 fs::path choose_signature(const Options& options, const fs::path& picture) {
   if (options.signature->empty()) return beside(options, picture, "--signature", "signature");
   const fs::path path = *options.signature;
-  std::error_code error;
-  if (fs::equivalent(path, options.scene, error) || path == picture)
-    throw UsageError("--signature: '" + *options.signature + "' is the scene or the picture itself");
+  refuse_inputs(options, path);
   check_image_path(path);
   return path;
+}
+
+// Throws UsageError if two of them are one file, however it is spelled.
+void refuse_same_places(const OutputFiles& files) {
+  std::map<fs::path, std::string> options; // by the place that they write to
+  const auto add = [&](const fs::path& path, const std::string& option) {
+    if (path.empty()) return;
+    const auto [other, is_new] = options.emplace(place_of(path), option);
+    if (!is_new)
+      throw UsageError(option + " and " + other->second + " write the same file, '" + path.string() + "'");
+  };
+  add(files.picture, "--output");
+  for (const auto& [aov, path] : files.aovs) add(path, std::string("--aov ") + aov_info(aov).name);
+  add(files.signature, "--signature");
 }
 
 } // namespace
@@ -85,6 +107,7 @@ OutputFiles choose_output_files(const Options& options) {
     for (const Aov aov : options.aovs)
       files.aovs.emplace_back(aov, beside(options, files.picture, "--aov", aov_info(aov).name));
   if (options.signature) files.signature = choose_signature(options, files.picture);
+  refuse_same_places(files);
   check_output_sizes(files, options);
   return files;
 }

@@ -22,7 +22,8 @@ struct OutputFiles {
 };
 
 // Where they go, checked before the work is done. Throws as check_image_path and check_output_sizes do, and
-// UsageError where the picture has no name for others to go beside.
+// UsageError where the picture has no name for others to go beside, and where a file would go over the scene
+// or over another one.
 OutputFiles choose_output_files(const Options& options);
 
 // Throws OutputError for a frame that a file's format can't hold. To be asked again when the picture's size

@@ -133,6 +133,14 @@ void check_writable(const fs::path& path) {
   if (!target.direct) open_temporary(path, target.path); // made and removed
 }
 
+fs::path place_of(const fs::path& path) {
+  const Target target = resolve(path);
+  std::error_code error;
+  const fs::path folder = fs::canonical(folder_of(target.path), error);
+  if (error) fail(path, error.value());
+  return folder / target.path.filename();
+}
+
 void replace_file(const fs::path& path, const unsigned char* bytes, std::size_t count) {
   const Target target = resolve(path);
   OpenFile file = target.direct ? open_directly(path, target.path) : open_temporary(path, target.path);

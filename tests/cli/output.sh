@@ -123,7 +123,32 @@ output_is_the_scene() {
   cp tiny.obj copy
   expect_error 2 'the scene' tiny.obj -o same.png
   expect_error 2 'the scene' tiny.obj -o linked.png
+  expect_error 2 'the scene' tiny.obj -o none --signature=linked.png
+  # The side-car too.
+  echo 'background = [0.9, 0.1, 0.1]' >tiny.toml
+  cp tiny.toml copy.toml
+  ln -s tiny.toml beside-id.png
+  expect_error 2 "'tiny.toml'" tiny.obj -o beside-id.png
+  expect_error 2 "'tiny.toml'" tiny.obj -o beside.png --aov id
+  expect_error 2 "'tiny.toml'" tiny.obj -o none --signature=beside-id.png
   cmp tiny.obj copy
+  cmp tiny.toml copy.toml
+}
+
+outputs_are_not_each_other() {
+  local name
+  mkdir folder
+  ln -s a.png link.png # to what is not there yet
+  ln -s . here
+  for name in a.png ./a.png "$PWD/a.png" folder/../a.png here/a.png link.png; do
+    expect_error 2 '--signature and --output write the same file' tiny.obj -o a.png "--signature=$name"
+  done
+  expect_error 2 '--signature and --output write the same file' tiny.obj --signature=tiny.png
+  expect_error 2 '--signature and --aov id write the same file' tiny.obj -o b.png --aov id --signature=b-id.png
+  ln -s c.png c-depth.png
+  expect_error 2 '--aov depth and --output write the same file' tiny.obj -o c.png --aov id,depth
+  expect 0 tiny.obj "${small[@]}" -o b.exr --aov id --signature=b-id.png
+  expect 0 tiny.obj "${small[@]}" -o b.png --aov id --signature=folder/b-id.png
 }
 
 old_picture_survives() {
