@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/run.hpp"
 
+#include "src/cli/option_warnings.hpp"
 #include "src/cli/output_files.hpp"
 #include "src/cli/progress.hpp"
 #include "src/cli/report.hpp"
@@ -38,6 +39,10 @@ double seconds_since(Clock::time_point start) {
 
 void warn(const Options& options, const std::string& message) {
   if (!options.quiet) print_warning(message);
+}
+
+void warn(const Options& options, const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) warn(options, message);
 }
 
 Isa choose_isa(const Options& options) {
@@ -179,7 +184,7 @@ SceneDesc read_scene(const Options& options, int threads) {
     print_note("'" + sidecar.string() + "' beside the scene is used too (--no-sidecar: it is not)");
   Diagnostics diagnostics;
   SceneDesc desc = load_scene(options.scene, load, diagnostics);
-  for (const std::string& line : diagnostics.lines()) warn(options, line);
+  warn(options, diagnostics.lines());
   return desc;
 }
 
@@ -195,7 +200,7 @@ bool is_standard_output(const fs::path& output) {
 
 int run(const Options& given, Clock::time_point start) {
   Options options = given;
-  for (const std::string& warning : options.warnings) warn(options, warning);
+  warn(options, options.warnings);
   RunStats stats;
   TracerSettings tracer_settings;
   tracer_settings.quality = stats.bvh_quality = options.bvh_quality;
@@ -210,17 +215,19 @@ int run(const Options& given, Clock::time_point start) {
   SceneDesc desc = read_scene(options, stats.threads);
   const Aabb bounds = bounds_of(desc);
   take_picture_settings(desc, options);
-  for (const std::string& warning : sampling_warnings(options)) warn(options, warning);
+  warn(options, sampling_warnings(options));
   const PixelFormat pixel_format = choose_pixel_format(options, output, tracer_settings.isa);
   check_image_size(options, pixel_format);
   check_crop(options);
   check_output_sizes(files, options);
   const Camera camera = choose_camera(options, bounds, desc);
+  warn(options, camera_warnings(options, camera));
   light_scene(options, bounds, camera, desc);
   stats.read_seconds = seconds_since(phase_start);
 
   phase_start = Clock::now();
   const Tracer tracer(Scene(std::move(desc)), tracer_settings);
+  warn(options, caustic_warnings(options, tracer.scene()));
   stats.build_seconds = seconds_since(phase_start);
 
   const RenderSettings settings = render_settings(options, pixel_format, stats.threads);

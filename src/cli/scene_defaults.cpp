@@ -55,18 +55,11 @@ void take_picture_settings(const SceneDesc& desc, Options& options) {
     take(options, "--max-spp", picture.most_samples, options.most_samples);
 }
 
-std::vector<std::string> sampling_warnings(const Options& options) {
-  std::vector<std::string> warnings;
-  if (options.given.contains("--max-spp") && options.adaptive == 0)
-    warnings.emplace_back("--max-spp says nothing without --adaptive");
-  if (options.aperture_radius > 0 && options.samples_per_pixel == 1 && options.adaptive == 0)
-    warnings.emplace_back("--aperture: one sample a pixel goes through the middle of the lens; give --spp");
-  return warnings;
-}
-
 Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, options.fov_degrees, aspect, options.up);
+  const bool shows_fov = !options.orthographic && !options.window;
+  const float fov = shows_fov ? options.fov_degrees : Camera{}.fov_degrees;
+  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, fov, aspect, options.up);
   if (options.eye) camera.eye = *options.eye;
   if (options.look_at) camera.look_at = *options.look_at;
   if (options.given.contains("--up")) camera.up = options.up;

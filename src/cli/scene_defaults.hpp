@@ -6,16 +6,10 @@
 
 #include <fastrt/scene.hpp>
 
-#include <string>
-#include <vector>
-
 namespace fastrt::cli {
 
 // Gives options that were not given the scene's values.
 void take_picture_settings(const SceneDesc& desc, Options& options);
-
-// What options say for nothing, now that the scene's values are known.
-std::vector<std::string> sampling_warnings(const Options& options);
 
 // The scene's camera, or one that shows all of it, changed by the options. Throws InputError for a view that
 // makes no sense.

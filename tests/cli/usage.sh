@@ -149,6 +149,23 @@ cameras() {
   expect 0 tiny.obj "${small[@]}" --eye 0,5,0 --look-at 0,0,0 --up 0,0,1 --fov 179
 }
 
+# warned TEXT ARGUMENT...: a warning that is TEXT, and no other line.
+warned() {
+  local text=$1
+  shift
+  expect 0 "$@" "${small[@]}" -o none
+  [ "$(cat err)" = "fastrt: warning: $text" ] || fail "fastrt $*: no warning '$text'"
+}
+
+options_for_nothing() {
+  warned '--fov says nothing beside --window' tiny.obj --window=-1,1,-1,1 --fov 30
+  warned '--focal says nothing without --window' tiny.obj --focal 2
+  warned '--max-spp says nothing without --adaptive' tiny.obj --max-spp 9
+  warned '--caustics says nothing without a mirror or glass in the scene' tiny.obj --caustics=100
+  expect 0 "$scenes/boxes.obj" "${small[@]}" -o none --caustics=100
+  [ ! -s err ] || fail "a warning of mirrors and glass"
+}
+
 inputs() {
   expect_error 3 'missing.obj' missing.obj
   expect_error 3 'folder' "$scratch/"

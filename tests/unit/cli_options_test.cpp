@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/cli/option_warnings.hpp"
 #include "src/cli/options.hpp"
 #include "src/cli/scene_defaults.hpp"
 
@@ -155,6 +156,47 @@ TEST(CliOptions, WhatDoesNothingIsAWarning) {
   EXPECT_EQ(sampling_warnings(parse({"--aperture", "0.1", "a.obj"})).size(), 1U);
   EXPECT_EQ(sampling_warnings(parse({"--max-spp", "9", "a.obj"})).size(), 1U);
   EXPECT_TRUE(sampling_warnings(parse({"--max-spp", "9", "--adaptive", "0.1", "a.obj"})).empty());
+}
+
+TEST(CliOptions, WhatSaysNothingOfTheCameraIsAWarning) {
+  SceneDesc desc;
+  const auto warnings = [&](std::initializer_list<const char*> arguments) {
+    const Options options = parse(arguments);
+    return camera_warnings(options, choose_camera(options, Aabb{}, desc));
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(warnings({"a.obj", "--ortho", "1", "--fov", "20"}), Lines{"--fov says nothing beside --ortho"});
+  EXPECT_EQ(warnings({"a.obj", "--window=-1,1,-1,1", "--fov", "30"}),
+            Lines{"--fov says nothing beside --window"});
+  EXPECT_EQ(warnings({"a.obj", "--window=-1,1,-1,1", "--ortho", "3"}),
+            Lines{"--ortho: a height says nothing beside --window"});
+  EXPECT_EQ(warnings({"a.obj", "--focal", "2"}), Lines{"--focal says nothing without --window"});
+  EXPECT_EQ(warnings({"a.obj", "--window=-1,1,-1,1", "--ortho", "auto", "--focal", "2"}),
+            Lines{"--focal says nothing of parallel rays"});
+  EXPECT_EQ(warnings({"a.obj", "--focus", "3"}), Lines{"--focus says nothing without --aperture"});
+  EXPECT_EQ(warnings({"a.obj", "--focus", "3", "--aperture", "0"}).size(), 1U);
+  EXPECT_TRUE(warnings({"a.obj", "--fov", "20"}).empty());
+  EXPECT_TRUE(warnings({"a.obj", "--ortho", "3"}).empty());
+  EXPECT_TRUE(warnings({"a.obj", "--window=-1,1,-1,1", "--ortho", "auto"}).empty());
+  EXPECT_TRUE(warnings({"a.obj", "--window=-1,1,-1,1", "--focal", "2"}).empty());
+  EXPECT_TRUE(warnings({"a.obj", "--focus", "3", "--aperture", "0.1"}).empty());
+  // Of the scene's window and lens they say something.
+  desc.camera = Camera{};
+  desc.camera->window = Window{};
+  desc.camera->aperture_radius = 0.5F;
+  EXPECT_TRUE(warnings({"a.toml", "--focal", "2", "--focus", "3"}).empty());
+  EXPECT_TRUE(warnings({"a.toml", "--fov", "20"}).empty());
+  EXPECT_EQ(warnings({"a.toml", "--fov", "20", "--focal", "2"}).size(), 1U);
+}
+
+TEST(CliOptions, FovSaysNothingBesideAWindow) {
+  const Aabb bounds{Vec3(-1), Vec3(1)};
+  const auto eye = [&](std::initializer_list<const char*> arguments) {
+    return choose_camera(parse(arguments), bounds, SceneDesc{}).eye;
+  };
+  EXPECT_NE(eye({"a.obj", "--fov", "20"}), eye({"a.obj"}));
+  EXPECT_EQ(eye({"a.obj", "--fov", "20", "--window=-1,1,-1,1"}), eye({"a.obj"}));
+  EXPECT_EQ(eye({"a.obj", "--fov", "20", "--ortho", "3"}), eye({"a.obj"}));
 }
 
 TEST(CliOptions, TheScenesValuesCountWhereNoneAreGiven) {
