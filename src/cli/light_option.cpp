@@ -1,59 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/light_option.hpp"
 
-#include "src/cli/parse.hpp"
+#include "src/cli/light_text.hpp"
 #include "src/scene/printable.hpp"
+#include "src/scene/scene_check.hpp"
 
 #include <fastrt/error.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace fastrt::cli {
 namespace {
 
-std::string_view next_field(std::string_view& text) {
-  const std::size_t colon = text.find(':');
-  const std::string_view field = text.substr(0, colon);
-  text = colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
-  return field;
-}
-
-// One number, or a colour.
-Vec3 parse_scale(std::string_view option, std::string_view text) {
-  if (text.find(',') != std::string_view::npos) return parse_color(option, text);
-  return Vec3(parse_length(option, text));
-}
-
-// [:scale][:ambient=r,g,b][:shadows=on|off], without the first colon.
-void parse_fields(std::string_view option, std::string_view fields, Light& light) {
-  for (bool first = true; !fields.empty(); first = false) {
-    const std::string_view field = next_field(fields);
-    const std::size_t equals = field.find('=');
-    const std::string_view name = field.substr(0, equals);
-    if (equals == std::string_view::npos && first)
-      light.intensity = parse_scale(option, field);
-    else if (name == "ambient" && equals != std::string_view::npos)
-      light.ambient = parse_color(option, field.substr(equals + 1));
-    else if (field == "shadows=on" || field == "shadows=off")
-      light.casts_shadows = field == "shadows=on";
-    else
-      throw UsageError(std::string(option) + ": '" + std::string(field) +
-                       "' is not ambient=r,g,b or shadows=off");
+// What could be meant.
+std::string emitting_materials(const SceneDesc& desc, const std::vector<Light>& emitting) {
+  std::string names;
+  for (const Light& light : emitting) {
+    const std::string& name = desc.materials[light.material].name;
+    if (!name.empty()) names += (names.empty() ? "" : ", ") + printable(name);
   }
+  return "; those that emit light: " + (names.empty() ? "none" : names);
 }
 
-std::uint32_t material_named(const SceneDesc& desc, const std::string& name) {
+std::optional<std::uint32_t> material_named(const SceneDesc& desc, std::string_view name) {
   const auto found = std::find_if(desc.materials.begin(), desc.materials.end(),
                                   [&](const Material& material) { return material.name == name; });
-  if (found != desc.materials.end()) return static_cast<std::uint32_t>(found - desc.materials.begin());
-  std::string emitting;
-  for (const Light& light : emissive_lights(desc))
-    emitting += (emitting.empty() ? "" : ", ") + printable(desc.materials[light.material].name);
-  throw UsageError("--light: there is no material '" + printable(name) +
-                   "'; those that emit light: " + (emitting.empty() ? "none" : emitting));
+  if (found == desc.materials.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - desc.materials.begin());
+}
+
+// Throws UsageError unless some triangle shines by the material.
+void check_emits(const SceneDesc& desc, const Light& light) {
+  const std::vector<Light> emitting = emissive_lights(desc);
+  const bool does = std::any_of(emitting.begin(), emitting.end(),
+                                [&](const Light& other) { return other.material == light.material; });
+  if (does) return;
+  const std::string fault = light_fault(desc, light);
+  const std::string name = printable(desc.materials[light.material].name);
+  throw UsageError("--light: " + (fault.empty() ? "no triangle has the material '" + name + "'" : fault) +
+                   emitting_materials(desc, emitting));
+}
+
+// The name is the longest part of the text, from its beginning to a colon or its end, that a material has.
+Light mesh_light(const SceneDesc& desc, std::string_view text) {
+  for (std::size_t end = text.size(); end != 0 && end != std::string_view::npos;
+       end = text.rfind(':', end - 1)) {
+    const std::optional<std::uint32_t> material = material_named(desc, text.substr(0, end));
+    if (!material) continue;
+    Light light;
+    light.kind = LightKind::mesh;
+    light.material = *material;
+    if (end != text.size()) read_light_fields("--light", ColonParts(text.substr(end + 1)), light);
+    check_emits(desc, light);
+    return light;
+  }
+  throw UsageError("--light: there is no material '" + printable(std::string(text)) + "'" +
+                   emitting_materials(desc, emissive_lights(desc)));
 }
 
 void add_all_emissive(const Light& like, const SceneDesc& desc, std::vector<Light>& lights) {
@@ -69,25 +75,22 @@ void add_all_emissive(const Light& like, const SceneDesc& desc, std::vector<Ligh
 
 LightOption parse_light_option(std::string_view option, std::string_view text) {
   LightOption result;
-  std::string_view rest = text;
-  const std::string_view kind = next_field(rest);
-  if (kind == "default" && kind == text) {
+  ColonParts parts(text);
+  const std::string_view kind = parts.next();
+  if (kind == "default") {
+    if (!parts.done()) throw UsageError(std::string(option) + ": nothing follows 'default'");
     result.source = LightOption::Source::defaults;
-    return result;
-  }
-  if (kind != "mesh" && kind != "emissive") {
-    result.light = parse_light(option, text);
-    return result;
-  }
-  result.light.kind = LightKind::mesh;
-  result.source = LightOption::Source::all_emissive;
-  if (kind == "mesh") {
+  } else if (kind == "mesh") {
+    if (parts.rest().empty()) refuse_lack(option, kind, "MATERIAL");
     result.source = LightOption::Source::material;
-    result.material = next_field(rest);
-    if (result.material.empty())
-      throw UsageError(std::string(option) + ": 'mesh:' is followed by the name of a material");
+    result.material = parts.rest();
+  } else if (kind == "emissive") {
+    result.source = LightOption::Source::all_emissive;
+    result.light.kind = LightKind::mesh;
+    read_light_fields(option, parts, result.light);
+  } else {
+    result.light = parse_light(option, text);
   }
-  parse_fields(option, rest, result.light);
   return result;
 }
 
@@ -115,8 +118,7 @@ void choose_lights(const std::vector<LightOption>& options, const Aabb& bounds, 
       add_all_emissive(option.light, desc, desc.lights);
       break;
     case LightOption::Source::material:
-      desc.lights.push_back(option.light);
-      desc.lights.back().material = material_named(desc, option.material);
+      desc.lights.push_back(mesh_light(desc, option.material));
       break;
     case LightOption::Source::described:
       desc.lights.push_back(option.light);

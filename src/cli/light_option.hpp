@@ -15,8 +15,9 @@ namespace fastrt::cli {
 struct LightOption {
   enum class Source { described, material, all_emissive, defaults };
   Source source = Source::described;
-  Light light;          // of materials: all but which
-  std::string material; // its name
+  Light light; // where the scene need not be known: all but `material`
+  // A material's name and fields. Names may hold colons, so only the scene says where one ends.
+  std::string material;
 };
 
 // A light of parse_light, or
@@ -26,7 +27,8 @@ LightOption parse_light_option(std::string_view option, std::string_view text);
 
 // Gives the scene the lights that are asked for; without any its own, or else its lamps (materials that emit
 // more than 1), or else a key and a fill light. A scene without lights also gets ambient light and a
-// background. Throws UsageError for materials that the scene has not.
+// background. Throws UsageError for materials that the scene has not or that are no light, and for what is
+// wrong in the fields behind their names.
 void choose_lights(const std::vector<LightOption>& options, const Aabb& bounds, const Camera& camera,
                    SceneDesc& desc);
 

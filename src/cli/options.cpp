@@ -2,12 +2,11 @@
 // The only file that includes CLI11, which is slow to compile.
 #include "src/cli/options.hpp"
 
+#include "src/cli/help.hpp"
 #include "src/cli/parse.hpp"
 #include "src/film/frame.hpp"
 
 #include <fastrt/error.hpp>
-#include <fastrt/isa.hpp>
-#include <fastrt/version.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -20,27 +19,6 @@ namespace {
 
 constexpr int most_samples = 65536;
 constexpr int deepest = 64;
-
-constexpr const char* examples =
-    "Examples:\n"
-    "  fastrt bunny.obj                          render bunny.png, 1024x768, one ray a pixel\n"
-    "  fastrt bunny.obj -s 16 -r 1920x1080 -o big.exr\n"
-    "  fastrt bunny.obj --eye 0,1,4 --look-at 0,0,0 --light point:3,5,2:1,0.9,0.8\n"
-    "  fastrt bunny.obj -o none --verify         compare the fast kernels with plain scalar code\n"
-    "  fastrt bunny.obj -o none --stats=json     measure\n"
-    "\n"
-    "Pictures: png ppm jpg tif (8 bits, sRGB) and exr hdr pfm (linear), by the name's extension.\n"
-    "AOVs: id primitive material depth normal position uv albedo shadow depth-of-recursion cost; as "
-    "channels\n"
-    "of an EXR picture, else one SCENE-NAME.png each.\n"
-    "Exit codes: 0 done, 1 --verify found a difference, 2 usage, 3 bad scene or camera, 4 output,\n"
-    "5 out of memory or over a limit, 128+n ended by signal n.";
-
-std::string version_text() {
-  std::string text = std::string("fastrt ") + version() + "\ninstruction sets here:";
-  for (const Isa isa : available_isas()) text += std::string(" ") + isa_name(isa);
-  return text + "\n";
-}
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
@@ -251,7 +229,7 @@ void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
            for (const std::string& text : texts)
              options.lights.push_back(parse_light_option("--light", text));
          },
-         "point:X,Y,Z or dir:X,Y,Z, then [:R,G,B]; mesh:MATERIAL; more: see README; may be repeated")
+         "A light, in one of the forms below; may be repeated")
       ->option_text("LIGHT")
       ->expected(1)
       ->allow_extra_args(false)
@@ -328,7 +306,7 @@ Options parse_options(int argc, const char* const* argv) {
   app.get_formatter()->column_width(34);
   app.get_formatter()->label("OPTIONS", "options");
   app.get_formatter()->label("Positionals", "Scene");
-  app.footer(examples);
+  app.footer(help_footer());
   app.add_option("scene", options.scene,
                  "The scene: an .obj, .nff, .ply or .toml file; after '--' its name may begin with '-'")
       ->option_text("FILE")

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/parse.hpp"
 
+#include "src/cli/read_numbers.hpp"
+
 #include <fastrt/error.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <system_error>
@@ -19,119 +20,6 @@ constexpr int largest_side = 65536;
 [[noreturn]] void refuse(std::string_view option, std::string_view text, const std::string& expected) {
   throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not " + expected);
 }
-
-// Reads all of text as a finite number; false if it is something else.
-bool read_number(std::string_view text, float& value) {
-  // from_chars knows no leading plus.
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && std::isfinite(value);
-}
-
-// Reads text as exactly three numbers between commas.
-bool read_vector(std::string_view text, Vec3& value) {
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t comma = text.find(',');
-    if ((comma == std::string_view::npos) != (i == 2)) return false;
-    if (!read_number(text.substr(0, comma), value[i])) return false;
-    text = i == 2 ? std::string_view() : text.substr(comma + 1);
-  }
-  return true;
-}
-
-bool read_color(std::string_view text, Vec3& value) {
-  return read_vector(text, value) && value.x >= 0 && value.y >= 0 && value.z >= 0;
-}
-
-// Reads a light: its kind, what belongs to it, a colour, and fields with names, all between colons.
-class LightParser {
-public:
-  LightParser(std::string_view text, Light& light) : text_(text), light_(light) {}
-
-  bool run() {
-    if (!read_kind()) return false;
-    for (bool first = true; !done_; first = false) {
-      const std::string_view field = next();
-      const std::size_t equals = field.find('=');
-      const bool fine = equals == std::string_view::npos
-                            ? first && read_color(field, light_.intensity)
-                            : read_named(field.substr(0, equals), field.substr(equals + 1));
-      if (!fine) return false;
-    }
-    return true;
-  }
-
-private:
-  std::string_view next() {
-    if (done_) return {};
-    const std::size_t colon = text_.find(':');
-    const std::string_view field = text_.substr(0, colon);
-    done_ = colon == std::string_view::npos;
-    text_ = done_ ? std::string_view() : text_.substr(colon + 1);
-    return field;
-  }
-
-  bool next_direction(Vec3& direction) { return read_vector(next(), direction) && direction != Vec3(0.0F); }
-  bool next_radius() { return read_number(next(), light_.radius) && light_.radius > 0; }
-
-  bool read_kind() {
-    const std::string_view kind = next();
-    if (kind == "dir") {
-      light_.kind = LightKind::directional;
-      return next_direction(light_.direction);
-    }
-    if (!read_vector(next(), light_.position)) return false;
-    if (kind == "point") return true;
-    if (kind == "spot") {
-      light_.kind = LightKind::spot;
-      return next_direction(light_.direction) && read_cone(next());
-    }
-    if (kind == "rect") {
-      light_.kind = LightKind::rectangle;
-      return next_direction(light_.half_u) && next_direction(light_.half_v);
-    }
-    if (kind == "disk") {
-      light_.kind = LightKind::disk;
-      return next_direction(light_.direction) && next_radius();
-    }
-    light_.kind = LightKind::sphere;
-    return kind == "sphere" && next_radius();
-  }
-
-  // cone[,penumbra[,exponent]]
-  bool read_cone(std::string_view text) {
-    float* const targets[] = {&light_.cone_degrees, &light_.penumbra_degrees, &light_.exponent};
-    light_.penumbra_degrees = 0;
-    for (float* target : targets) {
-      const std::size_t comma = text.find(',');
-      if (!read_number(text.substr(0, comma), *target) || *target < 0) return false;
-      if (comma == std::string_view::npos)
-        return light_.cone_degrees > 0 && light_.cone_degrees <= 180 &&
-               light_.penumbra_degrees <= light_.cone_degrees;
-      text = text.substr(comma + 1);
-    }
-    return false;
-  }
-
-  bool read_named(std::string_view name, std::string_view value) {
-    if (name == "ambient") return read_color(value, light_.ambient);
-    if (name == "shadows") {
-      light_.casts_shadows = value == "on";
-      return value == "on" || value == "off";
-    }
-    Vec3 fade{0.0F};
-    if (name != "fade" || !read_color(value, fade) || fade == Vec3(0.0F)) return false;
-    light_.constant = fade.x;
-    light_.linear = fade.y;
-    light_.quadratic = fade.z;
-    return light_.kind != LightKind::directional;
-  }
-
-  std::string_view text_;
-  Light& light_;
-  bool done_ = false;
-};
 
 } // namespace
 
@@ -171,17 +59,6 @@ Resolution parse_resolution(std::string_view option, std::string_view text) {
     return static_cast<int>(parse_integer(option, digits, 1, largest_side));
   };
   return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
-}
-
-Light parse_light(std::string_view option, std::string_view text) {
-  Light light;
-  if (!LightParser(text, light).run())
-    refuse(option, text,
-           "a light: point:x,y,z dir:x,y,z spot:x,y,z:dx,dy,dz:cone[,penumbra[,exponent]] "
-           "rect:x,y,z:u,u,u:v,v,v "
-           "disk:x,y,z:nx,ny,nz:radius or sphere:x,y,z:radius, then [:r,g,b][:fade=c,l,q][:ambient=r,g,b]"
-           "[:shadows=off]");
-  return light;
 }
 
 float parse_length(std::string_view option, std::string_view text) {

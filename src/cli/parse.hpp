@@ -5,7 +5,6 @@
 
 #include <fastrt/aov.hpp>
 #include <fastrt/camera.hpp>
-#include <fastrt/light.hpp>
 #include <fastrt/math.hpp>
 #include <fastrt/render.hpp>
 
@@ -35,12 +34,6 @@ Vec3 parse_color(std::string_view option, std::string_view text);
 
 // "640x480" or "640,480", each side in 1..65536.
 Resolution parse_resolution(std::string_view option, std::string_view text);
-
-// A kind with what belongs to it, then [:r,g,b] and fields with names, in any order:
-//   point:x,y,z   dir:x,y,z (the way that it travels)   spot:x,y,z:dx,dy,dz:cone[,penumbra[,exponent]]
-//   rect:x,y,z:ux,uy,uz:vx,vy,vz (half sides)   disk:x,y,z:nx,ny,nz:radius   sphere:x,y,z:radius
-//   fade=constant,linear,quadratic   ambient=r,g,b   shadows=on|off
-Light parse_light(std::string_view option, std::string_view text);
 
 // A finite number above 0.
 float parse_length(std::string_view option, std::string_view text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/toml_scene.hpp"
+#include "src/scene/scene_check.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -79,6 +80,9 @@ void read_toml_light(const TomlFile& file, const TomlNode& node, TomlScene& scen
   light.kind = row.kind;
   read_values(fields, light);
   if (const auto material = fields.find("material")) light.material = scene.material(*material);
+  // What a material emits may be said further below.
+  const std::string fault = light.kind == LightKind::mesh ? std::string() : light_fault(scene.desc, light);
+  if (!fault.empty()) fields.fail(fields.place(), fields.what() + ": " + fault);
   scene.desc.lights.push_back(light);
 }
 

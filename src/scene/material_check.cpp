@@ -41,13 +41,21 @@ std::string spot_fault(const Light& light) {
   return std::isfinite(light.exponent) && light.exponent >= 0.0F ? "" : "the exponent must be at least 0";
 }
 
+// The sine of the angle between a rectangle's sides up to which they count as parallel.
+constexpr double least_sine = 1e-6;
+
+bool spans_area(const Vec3& u, const Vec3& v) {
+  const glm::dvec3 wide_u(u), wide_v(v);
+  return glm::length(glm::cross(wide_u, wide_v)) > least_sine * glm::length(wide_u) * glm::length(wide_v);
+}
+
 std::string size_fault(const Light& light) {
   const bool is_round = light.kind == LightKind::disk || light.kind == LightKind::sphere;
   if (is_round && !(std::isfinite(light.radius) && light.radius > 0.0F))
     return "the radius must be greater than 0";
-  const bool has_sides = light.kind == LightKind::rectangle;
-  if (has_sides && (!is_finite(light.half_u) || !is_finite(light.half_v))) return "the sides must be finite";
-  return "";
+  if (light.kind != LightKind::rectangle) return "";
+  if (!is_finite(light.half_u) || !is_finite(light.half_v)) return "the sides must be finite";
+  return spans_area(light.half_u, light.half_v) ? "" : "the sides span no area";
 }
 
 std::string mesh_fault(const SceneDesc& desc, const Light& light) {
@@ -59,22 +67,6 @@ std::string mesh_fault(const SceneDesc& desc, const Light& light) {
   if (material.emission == Vec3(0.0F)) return name + "emits nothing (Ke)";
   if (material.emission_texture != no_texture) return name + "has a texture of what it emits";
   return {};
-}
-
-std::string fault_of(const SceneDesc& desc, const Light& light) {
-  if (!is_colour(light.intensity)) return "the intensity must be finite and not negative";
-  if (light.kind > LightKind::mesh) return "the kind is not known";
-  if (!is_colour(light.ambient)) return "the ambient part must be finite and not negative";
-  if (light.kind == LightKind::mesh) return mesh_fault(desc, light);
-  const bool has_place = light.kind != LightKind::directional;
-  const bool has_direction = !has_place || light.kind == LightKind::spot || light.kind == LightKind::disk;
-  if (has_place && !is_finite(light.position)) return "the position must be finite";
-  if (has_direction && !is_finite(light.direction)) return "the direction must be finite";
-  if (has_direction && light.direction == Vec3(0.0F)) return "the direction must not be 0";
-  const bool falls = is_colour({light.constant, light.linear, light.quadratic}) &&
-                     light.constant + light.linear + light.quadratic > 0.0F;
-  if (has_place && !falls) return "its fall-off must be finite, not negative, and not 0";
-  return light.kind == LightKind::spot ? spot_fault(light) : size_fault(light);
 }
 
 } // namespace
@@ -90,9 +82,25 @@ void check_materials(const SceneDesc& desc) {
   }
 }
 
+std::string light_fault(const SceneDesc& desc, const Light& light) {
+  if (!is_colour(light.intensity)) return "the intensity must be finite and not negative";
+  if (light.kind > LightKind::mesh) return "the kind is not known";
+  if (!is_colour(light.ambient)) return "the ambient part must be finite and not negative";
+  if (light.kind == LightKind::mesh) return mesh_fault(desc, light);
+  const bool has_place = light.kind != LightKind::directional;
+  const bool has_direction = !has_place || light.kind == LightKind::spot || light.kind == LightKind::disk;
+  if (has_place && !is_finite(light.position)) return "the position must be finite";
+  if (has_direction && !is_finite(light.direction)) return "the direction must be finite";
+  if (has_direction && light.direction == Vec3(0.0F)) return "the direction must not be 0";
+  const bool falls = is_colour({light.constant, light.linear, light.quadratic}) &&
+                     light.constant + light.linear + light.quadratic > 0.0F;
+  if (has_place && !falls) return "its fall-off must be finite, not negative, and not 0";
+  return light.kind == LightKind::spot ? spot_fault(light) : size_fault(light);
+}
+
 void check_lights(const SceneDesc& desc) {
   for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-    const std::string fault = fault_of(desc, desc.lights[i]);
+    const std::string fault = light_fault(desc, desc.lights[i]);
     if (!fault.empty()) throw InputError("light " + std::to_string(i) + ": " + fault);
   }
   if (desc.ambient && !is_colour(*desc.ambient))

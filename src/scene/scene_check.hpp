@@ -4,6 +4,8 @@
 
 #include <fastrt/scene.hpp>
 
+#include <string>
+
 namespace fastrt {
 
 // Throws LimitError for too many primitives, and InputError for the first column of a wrong length, number
@@ -18,5 +20,8 @@ void check_instances(const SceneDesc& desc);
 void check_textures(const SceneDesc& desc);
 void check_materials(const SceneDesc& desc);
 void check_lights(const SceneDesc& desc);
+
+// What is wrong with a light of this scene; "" if it can be used.
+std::string light_fault(const SceneDesc& desc, const Light& light);
 
 } // namespace fastrt

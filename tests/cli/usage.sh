@@ -157,6 +157,34 @@ warned() {
   [ "$(cat err)" = "fastrt: warning: $text" ] || fail "fastrt $*: no warning '$text'"
 }
 
+lights() {
+  cat >room.mtl <<'MTL'
+newmtl floor
+Kd 1 1 1
+newmtl ns:li ght
+Ke 1 1 1
+MTL
+  cat >room.obj <<'OBJ'
+mtllib room.mtl
+v -1 0 1
+v 1 0 1
+v 0 0 -1
+v 0 1 -1
+usemtl floor
+f 1 2 3
+usemtl ns:li ght
+f 1 3 4
+OBJ
+  expect 0 room.obj "${small[@]}" -o whole.ppm --light 'mesh:ns:li ght'
+  expect 0 room.obj "${small[@]}" -o half.ppm --light 'mesh:ns:li ght:0.5'
+  ! cmp -s whole.ppm half.ppm || fail "no scale behind the name"
+  expect_error 2 "--light: the material 'floor' emits nothing (Ke); those that emit light: ns:li ght" \
+    room.obj --light mesh:floor
+  expect_error 2 "--light: there is no material 'ns:lamp'" room.obj --light mesh:ns:lamp
+  expect_error 2 "--light: 'shadow' is no field of a light" room.obj --light point:1,2,3:shadow=off
+  expect_error 2 'the sides span no area' room.obj --light rect:1,2,3:1,0,0:2,0,0
+}
+
 options_for_nothing() {
   warned '--fov says nothing beside --window' tiny.obj --window=-1,1,-1,1 --fov 30
   warned '--focal says nothing without --window' tiny.obj --focal 2

@@ -330,7 +330,8 @@ TEST(CliOptions, HelpAndVersionNeedNoScene) {
   const Options help = parse({"--help"});
   ASSERT_TRUE(help.answer.has_value());
   for (const char* part :
-       {"Image:", "Sampling", "Camera", "Engine:", "Examples:", "--spp", "--light", "Exit codes"}) {
+       {"Image:", "Sampling", "Camera", "Engine:", "Examples:", "--spp", "--light", "Exit codes",
+        "rect:X,Y,Z:UX,UY,UZ:VX,VY,VZ ", "mesh:MATERIAL[:SCALE]", "[:shadows=off]"}) {
     EXPECT_NE(help.answer->find(part), std::string::npos) << part;
   }
   const Options version = parse({"--version"});

@@ -169,6 +169,12 @@ const Fault look_faults[] = {
        d.materials.back().emission = Vec3(1.0F);
      },
      "light 0: no triangle has the material"},
+    {"LightWithoutArea",
+     [](SceneDesc& d) {
+       d.lights[0].kind = LightKind::rectangle;
+       d.lights[0].half_v = -2.0F * d.lights[0].half_u;
+     },
+     "light 0: the sides span no area"},
     {"AmbientLight", [](SceneDesc& d) { d.ambient = Vec3(nan, 0, 0); }, "the ambient light"},
     {"Background", [](SceneDesc& d) { d.background = Vec3(-1, 0, 0); }, "the background"},
 };

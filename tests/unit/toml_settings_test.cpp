@@ -139,6 +139,8 @@ TEST(TomlSettings, LightsThatMakeNoSenseAreRefused) {
             "t.toml:4:8: fade: one number must be greater than 0");
   EXPECT_EQ(error("type = 'spot'\nposition = [0, 0, 0]\ndirection = [0, 1, 0]\ncone = 10\npenumbra = 11"),
             "t.toml:6:12: penumbra: must be at least 0 and at most 10");
+  EXPECT_EQ(error("type = 'rectangle'\nposition = [0, 0, 0]\nu = [1, 2, 3]\nv = [2, 4, 6]"),
+            "t.toml:1:1: [[light]] of type 'rectangle': the sides span no area");
 }
 
 TEST(TomlSettings, MaterialsHaveEverythingThatMaterialsHave) {
