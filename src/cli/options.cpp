@@ -5,6 +5,7 @@
 #include "src/cli/help.hpp"
 #include "src/cli/parse.hpp"
 #include "src/film/frame.hpp"
+#include "src/load/spelling.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace fastrt::cli {
@@ -286,6 +288,28 @@ void add_report_options(CLI::App& app, OptionAdder& add, Options& options, std::
   add.flag("--no-progress", options.show_progress, false, "No progress bar");
 }
 
+// "; did you mean '--spp'?"
+std::string suggestion(const CLI::App& app, const std::string& unknown) {
+  if (!unknown.starts_with("--")) return {};
+  std::vector<std::string_view> known;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) known.emplace_back(name);
+  const std::string_view nearest = nearest_name(unknown.substr(2), known);
+  return nearest.empty() ? std::string() : "; did you mean '--" + std::string(nearest) + "'?";
+}
+
+// Of what is neither an option nor a value of one: the first unknown option, or else a second scene.
+[[noreturn]] void refuse_extras(const CLI::App& app) {
+  const std::vector<std::string> extras = app.remaining();
+  for (const std::string& extra : extras) {
+    const std::string name = extra.starts_with("--") ? extra.substr(0, extra.find('=')) : extra;
+    const bool is_option = extra.size() > 1 && extra[0] == '-' && extra != "--";
+    if (is_option && app.get_option_no_throw(name) == nullptr) // a known one stands behind "--"
+      throw UsageError("unknown option '" + name + "'" + suggestion(app, name));
+  }
+  throw UsageError("one scene at a time: '" + extras.back() + "' is one too many");
+}
+
 } // namespace
 
 Resolution frame_size(const Options& options) {
@@ -334,6 +358,7 @@ Options parse_options(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion&) {
     options.answer = version_text();
   } catch (const CLI::ParseError& error) {
+    if (app.remaining_size() != 0) refuse_extras(app);
     throw UsageError(std::string(error.what()));
   }
   options.stats = stats_format(stats);

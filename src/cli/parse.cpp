@@ -21,6 +21,12 @@ constexpr int largest_side = 65536;
   throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not " + expected);
 }
 
+std::string known_aovs() {
+  std::string known = "all";
+  for (std::size_t i = 0; i < aov_count; ++i) known += std::string(", ") + aov_info(static_cast<Aov>(i)).name;
+  return known;
+}
+
 } // namespace
 
 std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t lowest,
@@ -119,19 +125,19 @@ Integrator parse_integrator(std::string_view option, std::string_view text) {
 
 std::vector<Aov> parse_aovs(std::string_view option, std::string_view text) {
   std::vector<Aov> aovs;
-  std::string known = "all";
-  for (std::size_t i = 0; i < aov_count; ++i) {
-    known += std::string(", ") + aov_info(static_cast<Aov>(i)).name;
-    if (text == "all") aovs.push_back(static_cast<Aov>(i));
-  }
-  if (text == "all") return aovs;
+  const auto add = [&](Aov aov) {
+    if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
+  };
   for (bool more = true; more;) {
     const std::size_t comma = text.find(',');
     more = comma != std::string_view::npos;
     const std::string_view name = text.substr(0, comma);
     const std::optional<Aov> aov = aov_named(name);
-    if (!aov) refuse(option, name, "one of " + known);
-    if (std::find(aovs.begin(), aovs.end(), *aov) == aovs.end()) aovs.push_back(*aov);
+    if (!aov && name != "all") refuse(option, name, "one of " + known_aovs());
+    if (aov)
+      add(*aov);
+    else
+      for (std::size_t i = 0; i < aov_count; ++i) add(static_cast<Aov>(i));
     if (more) text.remove_prefix(comma + 1);
   }
   return aovs;

@@ -53,7 +53,7 @@ BvhQuality parse_bvh_quality(std::string_view option, std::string_view text);
 // "whitted" or "forward".
 Integrator parse_integrator(std::string_view option, std::string_view text);
 
-// "id,depth,normal", or "all"; each kept once.
+// "id,depth,normal", where "all" stands for all of them; each kept once.
 std::vector<Aov> parse_aovs(std::string_view option, std::string_view text);
 
 } // namespace fastrt::cli

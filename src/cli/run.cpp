@@ -226,7 +226,7 @@ int run(const Options& given, Clock::time_point start) {
   stats.read_seconds = seconds_since(phase_start);
 
   phase_start = Clock::now();
-  const Tracer tracer(Scene(std::move(desc)), tracer_settings);
+  const Tracer tracer(checked_scene(options, std::move(desc)), tracer_settings);
   warn(options, caustic_warnings(options, tracer.scene()));
   stats.build_seconds = seconds_since(phase_start);
 

@@ -3,9 +3,11 @@
 
 #include "src/cli/light_option.hpp"
 
+#include <fastrt/error.hpp>
 #include <fastrt/load.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace fastrt::cli {
 namespace {
@@ -35,6 +37,36 @@ void choose_view(const Options& options, const Aabb& bounds, float aspect, Camer
       options.view_height ? *options.view_height : orthographic_height(bounds, camera, aspect);
 }
 
+float aspect_of(const Options& options) {
+  return static_cast<float>(options.width) / static_cast<float>(options.height);
+}
+
+Camera camera_by_options(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
+  const float aspect = aspect_of(options);
+  const bool shows_fov = !options.orthographic && !options.window;
+  const float fov = shows_fov ? options.fov_degrees : Camera{}.fov_degrees;
+  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, fov, aspect, options.up);
+  if (options.eye) camera.eye = *options.eye;
+  if (options.look_at) camera.look_at = *options.look_at;
+  if (options.given.contains("--up")) camera.up = options.up;
+  choose_view(options, bounds, aspect, camera);
+  // Throws for a view that makes no sense, before the long work.
+  make_camera_frame(camera, options.width, options.height);
+  return camera;
+}
+
+// Whether the scene makes no sense of its camera even if nothing changes it.
+bool has_bad_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
+  try {
+    const Camera camera =
+        desc.camera ? *desc.camera : frame_scene(bounds, Camera{}.fov_degrees, aspect_of(options));
+    make_camera_frame(camera, options.width, options.height);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
 } // namespace
 
 void take_picture_settings(const SceneDesc& desc, Options& options) {
@@ -56,23 +88,26 @@ void take_picture_settings(const SceneDesc& desc, Options& options) {
 }
 
 Camera choose_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  const bool shows_fov = !options.orthographic && !options.window;
-  const float fov = shows_fov ? options.fov_degrees : Camera{}.fov_degrees;
-  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, fov, aspect, options.up);
-  if (options.eye) camera.eye = *options.eye;
-  if (options.look_at) camera.look_at = *options.look_at;
-  if (options.given.contains("--up")) camera.up = options.up;
-  choose_view(options, bounds, aspect, camera);
-  // Throws for a view that makes no sense, before the long work.
-  make_camera_frame(camera, options.width, options.height);
-  return camera;
+  try {
+    return camera_by_options(options, bounds, desc);
+  } catch (const InputError& error) {
+    if (!has_bad_camera(options, bounds, desc)) throw;
+    throw InputError(options.scene, 0, 0, error.what());
+  }
 }
 
 void light_scene(const Options& options, const Aabb& bounds, const Camera& camera, SceneDesc& desc) {
   choose_lights(options.lights, bounds, camera, desc);
   if (options.ambient) desc.ambient = *options.ambient;
   if (options.background) desc.background = *options.background;
+}
+
+Scene checked_scene(const Options& options, SceneDesc desc) {
+  try {
+    return Scene(std::move(desc));
+  } catch (const InputError& error) {
+    throw InputError(options.scene, 0, 0, error.what());
+  }
 }
 
 } // namespace fastrt::cli

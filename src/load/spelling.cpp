@@ -34,7 +34,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 } // namespace
 
-std::string did_you_mean(std::string_view word, std::span<const std::string_view> names) {
+std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names) {
   if (word.size() > longest) return {};
   const std::string wanted = lower_case(word);
   std::string_view best;
@@ -44,6 +44,11 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
     const std::size_t d = distance(wanted, lower_case(name));
     if (d < least) least = d, best = name;
   }
+  return best;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> names) {
+  const std::string_view best = nearest_name(word, names);
   return best.empty() ? std::string() : "; did you mean " + in_quotes(best) + '?';
 }
 

@@ -7,7 +7,10 @@
 
 namespace fastrt {
 
-// "; did you mean 'color'?" with the name that is most like `word`, or "" if none is.
+// The name that is most like `word`, or "" if none is.
+std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names);
+
+// "; did you mean 'color'?" with that name, or "".
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> names);
 
 } // namespace fastrt

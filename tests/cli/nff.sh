@@ -49,6 +49,11 @@ errors() {
   expect 0 odd.nff "${small[@]}"
   grep -q 'odd.nff:2:1: a sphere of radius 0 is left out' err || fail "no warning"
   expect_error 3 'odd.nff:2:1' odd.nff --strict
+  write_scene
+  expect_error 3 'error: degenerate camera' tiny.nff --eye 0,0,0
+  sed -i 's/from 0 0 5/from 0 0 0/' tiny.nff
+  expect_error 3 'error: tiny.nff: degenerate camera: eye and look-at point are the same' tiny.nff
+  expect 0 tiny.nff --eye 0,0,5 -o none
 }
 
 # The Standard Procedural Databases, if FASTRT_MODELS names a folder that has them in nff/.

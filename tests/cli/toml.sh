@@ -96,6 +96,8 @@ errors() {
   echo 'include = "../odd.toml"' >sub/up.toml
   expect_error 3 'lies outside the scene directory' sub/up.toml
   expect 0 sub/up.toml "${small[@]}" --allow-external-files
+  printf '[material.dull]\n[[cube]]\nmaterial = "dull"\n[[light]]\ntype = "mesh"\nmaterial = "dull"\n' >dull.toml
+  expect_error 3 "error: dull.toml: light 0: the material 'dull' emits nothing" dull.toml
   truncate -s 17M large.toml
   expect_error 5 "'large.toml' is larger than 16 MiB" large.toml
 }

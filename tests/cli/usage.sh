@@ -90,6 +90,11 @@ LIST
   expect_error 2 '' tiny.obj -o ''
 }
 
+unknown_options() {
+  expect_error 2 "error: unknown option '--sppp'; did you mean '--spp'? (see fastrt --help)" tiny.obj --sppp 4
+  expect_error 2 "error: unknown option '--bogus' (see fastrt --help)" tiny.obj --bogus
+}
+
 one_scene_only() {
   expect_error 2 '' tiny.obj tiny.obj
   expect_error 2 'scene'

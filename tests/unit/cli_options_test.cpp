@@ -248,6 +248,8 @@ TEST(CliOptions, AovsAreNamesOrAll) {
   EXPECT_EQ(parse({"--aov", "uv,depth-of-recursion,uv", "a.obj"}).aovs,
             (std::vector<Aov>{Aov::uv, Aov::recursion}));
   EXPECT_EQ(parse({"--aov=all", "a.obj"}).aovs.size(), aov_count);
+  EXPECT_EQ(parse({"--aov=all,id", "a.obj"}).aovs, parse({"--aov=all", "a.obj"}).aovs);
+  EXPECT_EQ(parse({"--aov=id,all", "a.obj"}).aovs.size(), aov_count);
 }
 
 TEST(CliOptions, LightsAddUpAndDoNotSwallowTheScene) {
@@ -324,6 +326,29 @@ TEST(CliOptions, UsageErrors) {
   for (const auto& words : bad) {
     EXPECT_THROW(parse(words), UsageError) << (words.empty() ? "" : words.back());
   }
+}
+
+std::string error_of(const std::vector<const char*>& words) {
+  try {
+    parse(words);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(CliOptions, UnknownOptionsAreNamedAlone) {
+  constexpr const char* spp = "unknown option '--sppp'; did you mean '--spp'?";
+  EXPECT_EQ(error_of({"a.obj", "--sppp", "4"}), spp);
+  EXPECT_EQ(error_of({"--sppp", "4", "a.obj"}), spp);
+  EXPECT_EQ(error_of({"--sppp=4", "a.obj"}), spp);
+  EXPECT_EQ(error_of({"--sppp"}), spp);
+  EXPECT_EQ(error_of({"a.obj", "--signatur"}), "unknown option '--signatur'; did you mean '--signature'?");
+  EXPECT_EQ(error_of({"a.obj", "--verfy"}), "unknown option '--verfy'; did you mean '--verify'?");
+  EXPECT_EQ(error_of({"a.obj", "--something-else"}), "unknown option '--something-else'");
+  EXPECT_EQ(error_of({"a.obj", "-z"}), "unknown option '-z'");
+  EXPECT_EQ(error_of({"a.obj", "b.obj"}), "one scene at a time: 'b.obj' is one too many");
+  EXPECT_EQ(error_of({"--", "a.obj", "--spp"}), "one scene at a time: '--spp' is one too many");
 }
 
 TEST(CliOptions, HelpAndVersionNeedNoScene) {
