@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/cli/run.hpp"
 
+#include "src/cli/frame_settings.hpp"
 #include "src/cli/option_warnings.hpp"
 #include "src/cli/output_files.hpp"
 #include "src/cli/progress.hpp"
 #include "src/cli/report.hpp"
-#include "src/cli/save.hpp"
+#include "src/cli/run_report.hpp"
 #include "src/cli/scene_defaults.hpp"
 #include "src/cli/signals.hpp"
-#include "src/cli/stats.hpp"
 #include "src/scene/threads.hpp"
 
 #include <fastrt/fastrt.hpp>
 
-#include <omp.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -36,6 +29,19 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+// How long a phase takes: from here to the end of the block.
+class PhaseTimer {
+public:
+  explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
+  ~PhaseTimer() { seconds_ = seconds_since(start_); }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+private:
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
 
 void warn(const Options& options, const std::string& message) {
   if (!options.quiet) print_warning(message);
@@ -60,59 +66,12 @@ int choose_threads(const Options& options) {
   return threads;
 }
 
-// Codes alone, unless more is asked of a pixel: to be compared, or written as linear values, or to go on
-// with; or it is made one by one (`scalar`).
-PixelFormat choose_pixel_format(const Options& options, const fs::path& output, Isa isa) {
-  const bool is_8bit = output.empty() || is_8bit_format(format_of(output));
-  const bool needs_more = options.verify || options.adaptive > 0 || !aovs_to_render(options).empty() ||
-                          options.integrator == Integrator::forward || isa == Isa::scalar;
-  return is_8bit && !needs_more ? PixelFormat::srgb8 : PixelFormat::linear;
-}
-
-// What rendering keeps of a pixel: its codes; or its colour and primitive id, AOVs, and twice all of it if
-// there are two renderings.
-std::uint64_t bytes_per_pixel(const Options& options, PixelFormat format) {
-  if (format == PixelFormat::srgb8) return 3;
-  std::uint64_t values = 4;
-  if (options.adaptive > 0) values += 11;                     // sums, counts, what the eye sees
-  if (options.integrator == Integrator::forward) values += 6; // sums of 64 bits
-  for (const Aov aov : aovs_to_render(options)) values += static_cast<std::uint64_t>(aov_info(aov).channels);
-  return values * sizeof(float) * (options.verify ? 2 : 1);
-}
-
-void check_image_size(const Options& options, PixelFormat format) {
-  const std::uint64_t pixel_bytes = bytes_per_pixel(options, format);
-  const auto [width, height] = frame_size(options);
-  const std::uint64_t bytes =
-      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes;
-  if (bytes > static_cast<std::uint64_t>(options.max_image_mb) << 20U) {
-    throw LimitError("a picture of " + std::to_string(width) + "x" + std::to_string(height) + " takes " +
-                     std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB, more than --max-image-mb " +
-                     std::to_string(options.max_image_mb));
-  }
-}
-
-RenderSettings render_settings(const Options& options, PixelFormat format, int threads) {
-  RenderSettings settings;
-  settings.pixel_format = format;
-  settings.width = options.width;
-  settings.height = options.height;
-  settings.samples_per_pixel = options.samples_per_pixel;
-  settings.filter = options.filter;
-  settings.crop = options.crop;
-  settings.seed = options.seed;
-  settings.adaptive = options.adaptive;
-  settings.most_samples = options.most_samples;
-  settings.light_samples = options.light_samples;
-  settings.integrator = options.integrator;
-  settings.photons = options.photons.value_or(settings.photons);
-  settings.caustic_photons = options.caustic_photons;
-  settings.caustic_radius = options.caustic_radius.value_or(0.0F);
-  settings.max_depth = options.max_depth;
-  settings.min_contribution = options.min_contribution;
-  settings.aovs = aovs_to_render(options);
-  settings.threads = threads;
-  settings.cancelled = &cancelled();
+TracerSettings choose_engine(const Options& options) {
+  TracerSettings settings;
+  settings.quality = options.bvh_quality;
+  settings.isa = choose_isa(options);
+  settings.culling = options.culling;
+  settings.threads = choose_threads(options);
   return settings;
 }
 
@@ -127,45 +86,6 @@ Frame watched(const Options& options, const char* label, RenderSettings settings
   Frame frame = render_with(settings);
   if (!frame.complete) end_by_signal();
   return frame;
-}
-
-// to_stderr: when the picture itself goes to stdout.
-void report(const Options& options, const RunStats& stats, bool to_stderr) {
-  if (options.stats == StatsFormat::text) std::fputs(stats_text(stats).c_str(), stderr);
-  std::string text;
-  if (options.stats == StatsFormat::json) {
-    text = stats_json(stats);
-  } else if (!options.quiet) {
-    text = verify_text(stats) + summary_line(stats);
-  }
-  if (to_stderr) {
-    std::fputs(text.c_str(), stderr);
-  } else {
-    print_out(text);
-  }
-}
-
-void describe(const Options& options, const Tracer& tracer, const Frame& frame, RunStats& stats) {
-  stats.scene = options.scene;
-  stats.width = frame.width;
-  stats.height = frame.height;
-  stats.samples_per_pixel = options.samples_per_pixel;
-  if (!frame.samples.empty()) {
-    stats.most_samples = *std::max_element(frame.samples.begin(), frame.samples.end());
-    stats.mean_samples = std::accumulate(frame.samples.begin(), frame.samples.end(), 0.0) /
-                         static_cast<double>(frame.samples.size());
-  }
-  stats.aovs = frame.aovs.size();
-  stats.isa = tracer.isa();
-  stats.triangles = tracer.scene().triangle_count();
-  stats.spheres = tracer.scene().sphere_count();
-  stats.shapes = tracer.scene().primitive_count() - tracer.scene().first_of(PrimitiveKind::cone);
-  stats.instances = tracer.scene().instance_count();
-  stats.lights = tracer.scene().lights().size();
-  stats.rays = frame.rays;
-  stats.tests = frame.tests;
-  stats.bvh = tracer.bvh_stats();
-  stats.scene_bytes = tracer.scene().bytes();
 }
 
 SceneDesc read_scene(const Options& options, int threads) {
@@ -188,12 +108,65 @@ SceneDesc read_scene(const Options& options, int threads) {
   return desc;
 }
 
-// Whether the picture goes where print_out() goes.
-bool is_standard_output(const fs::path& output) {
-  struct stat picture {};
-  struct stat stream {};
-  return !output.empty() && stat(output.c_str(), &picture) == 0 && fstat(STDOUT_FILENO, &stream) == 0 &&
-         !S_ISCHR(stream.st_mode) && picture.st_dev == stream.st_dev && picture.st_ino == stream.st_ino;
+// Takes what the scene says of the picture; warns of options that say nothing, and throws for those that ask
+// for too much.
+void settle_picture(const SceneDesc& desc, const OutputFiles& files, Isa isa, Options& options) {
+  take_picture_settings(desc, options);
+  warn(options, sampling_warnings(options));
+  check_image_size(options, files.picture, isa);
+  check_crop(options);
+  check_output_sizes(files, options);
+}
+
+// Gives the scene its lights; returns its camera.
+Camera settle_view(const Options& options, SceneDesc& desc) {
+  const Aabb bounds = bounds_of(desc);
+  const Camera camera = choose_camera(options, bounds, desc);
+  warn(options, camera_warnings(options, camera));
+  light_scene(options, bounds, camera, desc);
+  return camera;
+}
+
+Tracer build(const Options& options, SceneDesc desc, const TracerSettings& settings, RunStats& stats) {
+  const PhaseTimer timer(stats.build_seconds);
+  return Tracer(checked_scene(options, std::move(desc)), settings);
+}
+
+Frame render_fast(const Options& options, const Tracer& tracer, const Camera& camera,
+                  const RenderSettings& settings, RunStats& stats) {
+  const PhaseTimer timer(stats.render_seconds);
+  return watched(options, "rendering", settings,
+                 [&](const RenderSettings& with) { return render(tracer, camera, with); });
+}
+
+void verify(const Options& options, const Tracer& tracer, const Camera& camera,
+            const RenderSettings& settings, const Frame& frame, RunStats& stats) {
+  const PhaseTimer timer(stats.verify_seconds);
+  const Frame expected = watched(options, "verifying", settings, [&](const RenderSettings& with) {
+    return render_reference(tracer.scene(), camera, with);
+  });
+  stats.verify = compare(frame, expected);
+}
+
+// A signal may come in between: then what is left is not written.
+void save_files(const OutputFiles& files, const Tracer& tracer, const Frame& frame, RunStats& stats) {
+  const PhaseTimer timer(stats.write_seconds);
+  save_extra_files(files, frame, stats.threads);
+  if (files.picture.empty() || signal_received() != 0) return;
+  save_picture(files, frame, tracer.scene().desc().object_names, stats.threads);
+  stats.output = files.picture.string();
+}
+
+int end_interrupted(const RunStats& stats) {
+  print_error(stats.output.empty() ? std::string("interrupted; no picture is written")
+                                   : "interrupted after '" + stats.output + "' was written");
+  return 128 + signal_received();
+}
+
+int verdict(const RunStats& stats) {
+  if (!stats.verify || stats.verify->equal()) return exit_done;
+  print_error("the kernels and the plain scalar code make different pictures");
+  return exit_differs;
 }
 
 } // namespace
@@ -201,72 +174,34 @@ bool is_standard_output(const fs::path& output) {
 int run(const Options& given, Clock::time_point start) {
   Options options = given;
   warn(options, options.warnings);
-  RunStats stats;
-  TracerSettings tracer_settings;
-  tracer_settings.quality = stats.bvh_quality = options.bvh_quality;
-  tracer_settings.isa = choose_isa(options);
-  tracer_settings.culling = options.culling;
-  tracer_settings.threads = stats.threads = choose_threads(options);
+  const TracerSettings engine = choose_engine(options);
   const OutputFiles files = choose_output_files(options);
-  const fs::path& output = files.picture;
-  check_image_size(options, choose_pixel_format(options, output, tracer_settings.isa));
+  check_image_size(options, files.picture, engine.isa);
 
-  Clock::time_point phase_start = Clock::now();
-  SceneDesc desc = read_scene(options, stats.threads);
-  const Aabb bounds = bounds_of(desc);
-  take_picture_settings(desc, options);
-  warn(options, sampling_warnings(options));
-  const PixelFormat pixel_format = choose_pixel_format(options, output, tracer_settings.isa);
-  check_image_size(options, pixel_format);
-  check_crop(options);
-  check_output_sizes(files, options);
-  const Camera camera = choose_camera(options, bounds, desc);
-  warn(options, camera_warnings(options, camera));
-  light_scene(options, bounds, camera, desc);
-  stats.read_seconds = seconds_since(phase_start);
-
-  phase_start = Clock::now();
-  const Tracer tracer(checked_scene(options, std::move(desc)), tracer_settings);
+  RunStats stats;
+  stats.threads = engine.threads;
+  stats.bvh_quality = engine.quality;
+  const Clock::time_point read_start = Clock::now();
+  SceneDesc desc = read_scene(options, engine.threads);
+  settle_picture(desc, files, engine.isa, options);
+  const Camera camera = settle_view(options, desc);
+  stats.read_seconds = seconds_since(read_start);
+  const Tracer tracer = build(options, std::move(desc), engine, stats);
   warn(options, caustic_warnings(options, tracer.scene()));
-  stats.build_seconds = seconds_since(phase_start);
 
-  const RenderSettings settings = render_settings(options, pixel_format, stats.threads);
+  const RenderSettings settings = render_settings(options, files.picture, engine.isa, engine.threads);
   enter_phase(Phase::rendering);
-  phase_start = Clock::now();
-  const Frame frame = watched(options, "rendering", settings,
-                              [&](const RenderSettings& with) { return render(tracer, camera, with); });
-  stats.render_seconds = seconds_since(phase_start);
+  const Frame frame = render_fast(options, tracer, camera, settings, stats);
   describe(options, tracer, frame, stats);
-
-  if (options.verify) {
-    phase_start = Clock::now();
-    const Frame expected = watched(options, "verifying", settings, [&](const RenderSettings& with) {
-      return render_reference(tracer.scene(), camera, with);
-    });
-    stats.verify = compare(frame, expected);
-    stats.verify_seconds = seconds_since(phase_start);
-  }
+  if (options.verify) verify(options, tracer, camera, settings, frame, stats);
   enter_phase(Phase::idle);
 
-  phase_start = Clock::now();
-  save_extra_files(files, frame, stats.threads);
-  if (!output.empty() && signal_received() == 0) {
-    save_picture(files, frame, tracer.scene().desc().object_names, stats.threads);
-    stats.output = output.string();
-  }
-  stats.write_seconds = seconds_since(phase_start);
-  if (signal_received() != 0) {
-    print_error(stats.output.empty() ? std::string("interrupted; no picture is written")
-                                     : "interrupted after '" + stats.output + "' was written");
-    return 128 + signal_received();
-  }
-
+  save_files(files, tracer, frame, stats);
+  if (signal_received() != 0) return end_interrupted(stats);
   stats.peak_rss_bytes = peak_rss_bytes();
   stats.total_seconds = seconds_since(start);
-  report(options, stats, is_standard_output(output));
-  if (!stats.verify || stats.verify->equal()) return exit_done;
-  print_error("the kernels and the plain scalar code make different pictures");
-  return exit_differs;
+  report(options, stats, files.picture);
+  return verdict(stats);
 }
 
 } // namespace fastrt::cli
