@@ -133,8 +133,10 @@ void save_extra_files(const OutputFiles& files, const Frame& frame, int threads)
 
 void save_picture(const OutputFiles& files, const Frame& frame, std::span<const std::string> objects,
                   int threads) {
-  save(files.picture, files.layers_in_picture ? encode_layers(frame, objects, threads)
-                                              : encode_picture(frame, format_of(files.picture), threads));
+  const std::string format = format_of(files.picture);
+  if (frame.aovs.empty()) objects = {};
+  save(files.picture, format == "exr" ? encode_layers(frame, objects, threads)
+                                      : encode_picture(frame, format, threads));
 }
 
 } // namespace fastrt::cli

@@ -206,6 +206,23 @@ aovs() {
 }
 
 # Rows and columns of a PPM are those of the whole picture.
+# window FILE NAME: a window of an EXR file, its first and last column and row.
+window() {
+  local at
+  at=$(grep -aob "$2" "$1" | head -n 1 | cut -d: -f1)
+  od -An -td4 -j $((at + ${#2} + 1 + 6 + 4)) -N 16 "$1" | xargs # behind the name, "box2i" and a size
+}
+
+crop_in_exr() {
+  local more
+  for more in "" "--aov id" "--signature"; do
+    # shellcheck disable=SC2086 # several words
+    expect 0 tiny.obj -r 80x60 $more -o part.exr --crop 20,17,61,49
+    [[ $(window part.exr dataWindow) == '20 17 60 48' ]] || fail "'$more': $(window part.exr dataWindow)"
+    [[ $(window part.exr displayWindow) == '0 0 79 59' ]] || fail "'$more': $(window part.exr displayWindow)"
+  done
+}
+
 crop() {
   local more
   for more in '' '-s 2 --adaptive 0.05 --max-spp 8' '-s 4 --aperture 0.2 --filter mitchell'; do
