@@ -11,18 +11,19 @@ namespace fastrt {
 
 namespace {
 
-// Takes `least` numbers or as many more as there is room for, up to the line end.
+// Takes `least` numbers or as many more as there is room for, up to the line end. Returns how many; 0 if it
+// can't.
 template <std::size_t least, std::size_t most>
-[[gnu::always_inline]] inline bool take_numbers(MarkedText& p, std::array<float, most>& numbers) {
+[[gnu::always_inline]] inline std::size_t take_numbers(MarkedText& p, std::array<float, most>& numbers) {
   if (p.length() == 0) skip_spaces(p);
-  if (p.at_line_end()) return false;
+  if (p.at_line_end()) return 0;
   std::size_t count = take_pointed_numbers<least>(p, numbers.data()) ? least : 0;
-  if (count == least && p.mark() == '\n') return true;
+  if (count == least && p.mark() == '\n') return least;
   for (skip_spaces(p); !p.at_line_end(); skip_spaces(p)) {
-    if (count == most || !take_number(p, numbers[count])) return false;
+    if (count == most || !take_number(p, numbers[count])) return 0;
     ++count;
   }
-  return count >= least;
+  return count >= least ? count : 0;
 }
 
 [[gnu::always_inline]] inline std::array<std::uint32_t, 3> first_three(__m128i lanes) {
@@ -126,6 +127,21 @@ bool ObjFiller::take_polygon(MarkedText& p, std::span<const Corner> first) {
   return true;
 }
 
+// False, and nothing done, if there is something to be said about it.
+bool ObjFiller::put_colored(std::span<const float> numbers, std::size_t count) {
+  if (!has_color(count) || !is_srgb(color_in(numbers, count))) return false;
+  put_position(numbers);
+  put_color(color_in(numbers, count));
+  return true;
+}
+
+// Of the last position.
+void ObjFiller::put_color(std::span<const float, 3> color) {
+  if (!result_->has_colors) colors_.start(first_position_, last_.positions);
+  result_->has_colors = true;
+  colors_.put(now_.before.positions - 1, color);
+}
+
 // As a fan for now: its corners are those of the first triangle and then the last one of each.
 void ObjFiller::put_face(std::span<const Corner> corners) {
   const std::uint64_t first = now_.before.triangles;
@@ -155,14 +171,16 @@ void ObjFiller::put_face(std::span<const Corner> corners) {
   if (line[0] != 'v') return false;
   if (length == 1) {
     std::array<float, 8> numbers; // weight and colours too
-    if (!take_numbers<3>(p, numbers)) return false;
+    const std::size_t count = take_numbers<3>(p, numbers);
+    if (count > 4) return put_colored(numbers, count);
+    if (count == 0) return false;
     put_position(numbers);
     return true;
   }
   const bool is_normal = line[1] == 'n';
   if (length != 2 || (!is_normal && line[1] != 't')) return false;
   std::array<float, 3> numbers{};
-  if (!(is_normal ? take_numbers<3>(p, numbers) : take_numbers<2>(p, numbers))) return false;
+  if ((is_normal ? take_numbers<3>(p, numbers) : take_numbers<2>(p, numbers)) == 0) return false;
   if (!is_normal)
     put_uv(numbers);
   else if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0)
@@ -200,6 +218,7 @@ void ObjFiller::fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& st
                      bool with_care, ObjChunkResult& result) {
   text_ = buffer.begin();
   chunk_begin_ = chunk.begin;
+  first_position_ = start.before.positions;
   now_ = start;
   last_ = start.before;
   last_ += counts;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/load/digit_marks.hpp"
+#include "src/load/obj_colors.hpp"
 #include "src/load/obj_plan.hpp"
 
 #include <fastrt/scene.hpp>
@@ -34,8 +35,9 @@ inline bool match(std::span<const Corner> corners) {
 class ObjFiller {
 public:
   // `smoothing`: a column for the triangles' smoothing groups, or null.
-  ObjFiller(const Source& source, const ObjPlan& plan, SceneDesc& desc, Column<std::uint32_t>* smoothing)
-      : source_(source), plan_(plan), desc_(desc), smoothing_(smoothing) {}
+  ObjFiller(const Source& source, const ObjPlan& plan, SceneDesc& desc, ObjColors& colors,
+            Column<std::uint32_t>* smoothing)
+      : source_(source), plan_(plan), desc_(desc), colors_(colors), smoothing_(smoothing) {}
 
   void fill(ChunkBuffer& buffer, const Chunk& chunk, const ObjState& start, const ObjCounts& counts,
             bool with_care, ObjChunkResult& result);
@@ -54,6 +56,7 @@ private:
   bool read_line(char*& p, char* limit);
   bool read_statement(std::string_view line);
   bool read_vertex(std::string_view keyword, std::string_view line);
+  void read_color(std::span<const float> numbers, std::size_t count);
   bool read_face(std::string_view line);
   bool read_corner(std::string_view line, std::string_view word, Corner& corner);
   bool read_reference(std::string_view text, std::uint64_t offset, int which, std::uint32_t& index);
@@ -63,6 +66,8 @@ private:
   void warn_about_keyword(std::string_view keyword);
 
   void put_position(std::span<const float> numbers);
+  bool put_colored(std::span<const float> numbers, std::size_t count);
+  void put_color(std::span<const float, 3> color);
   void put_normal(std::span<const float> numbers);
   void put_uv(std::span<const float> numbers);
   void put_face(std::span<const Corner> corners);
@@ -74,12 +79,14 @@ private:
   const Source& source_;
   const ObjPlan& plan_;
   SceneDesc& desc_;
+  ObjColors& colors_;
   Column<std::uint32_t>* smoothing_;
 
   // The chunk being read.
   const char* text_ = nullptr;
   std::uint64_t chunk_begin_ = 0;
   std::uint64_t line_offset_ = 0;
+  std::uint64_t first_position_ = 0;
   ObjState now_; // `before` counts what has been read so far
   ObjCounts totals_;
   bool bare_faces_ = false;       // no face has texture coordinates or normals

@@ -49,6 +49,7 @@ struct ObjChunkResult {
   std::vector<Polygon> polygons;
   bool uses_default_material = false;
   bool uses_normals = false, uses_uvs = false;
+  bool has_colors = false;
   bool has_zero_normal = false;
   std::vector<Finding> findings;      // in the order of the triangles
   std::vector<std::uint32_t> dropped; // triangles, ascending

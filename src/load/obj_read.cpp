@@ -78,6 +78,7 @@ bool ObjFiller::read_vertex(std::string_view keyword, std::string_view line) {
   }
   if (is_position) {
     put_position(numbers);
+    read_color(numbers, count);
   } else if (is_uv) {
     put_uv(numbers);
   } else {
@@ -88,6 +89,22 @@ bool ObjFiller::read_vertex(std::string_view keyword, std::string_view line) {
     put_normal(numbers);
   }
   return true;
+}
+
+// What stands behind the last position.
+void ObjFiller::read_color(std::span<const float> numbers, std::size_t count) {
+  if (count <= 4) return;
+  if (!has_color(count)) {
+    result_->log.warn(line_offset_, "position with odd numbers",
+                      std::to_string(count) + " numbers after 'v': expected x y z, behind them a weight or a "
+                                              "colour or both; only x y z are used");
+    return;
+  }
+  const std::span<const float, 3> color = color_in(numbers, count);
+  if (!is_srgb(color))
+    result_->log.warn(line_offset_, "vertex colour",
+                      "a colour's numbers go from 0 to 1; others count as the nearest of these");
+  put_color(color);
 }
 
 bool ObjFiller::read_face(std::string_view line) {

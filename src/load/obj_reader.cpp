@@ -47,6 +47,7 @@ private:
   void plan();
   void allocate();
   void fill();
+  void whiten_the_rest();
   void check_triangles();
   void report(Diagnostics& diagnostics);
   void finish_materials();
@@ -61,6 +62,7 @@ private:
   ObjPlan plan_;
   EventLog shared_log_; // of what belongs to no chunk
   SceneDesc desc_;
+  ObjColors colors_{desc_};
   Column<std::uint32_t> smoothing_;
   bool failed_ = false;
 };
@@ -155,7 +157,7 @@ void ObjReader::fill() {
     if (i > first_failed.load(std::memory_order_relaxed)) return;
     buffers_[thread].read(source_, chunks_[i]);
     const bool with_care = summaries_[i].needs_care || chunks_[i].torn;
-    ObjFiller(source_, plan_, desc_, plan_.has_smoothing ? &smoothing_ : nullptr)
+    ObjFiller(source_, plan_, desc_, colors_, plan_.has_smoothing ? &smoothing_ : nullptr)
         .fill(buffers_[thread], chunks_[i], states_[i], summaries_[i].counts, with_care, results_[i]);
     if (!results_[i].log.failed()) return;
     std::size_t known = first_failed.load();
@@ -163,6 +165,7 @@ void ObjReader::fill() {
     }
   });
   failed_ = first_failed.load() != chunks_.size();
+  whiten_the_rest();
   bool uses_normals = false, uses_uvs = false;
   for (const ObjChunkResult& result : results_) {
     uses_normals = uses_normals || result.uses_normals;
@@ -171,6 +174,15 @@ void ObjReader::fill() {
   TriangleColumns& rows = desc_.triangles;
   if (!uses_normals) rows.n0 = rows.n1 = rows.n2 = {};
   if (!uses_uvs) rows.t0 = rows.t1 = rows.t2 = {};
+}
+
+// If there are colours: the positions of chunks without.
+void ObjReader::whiten_the_rest() {
+  if (desc_.colors.size() == 0) return;
+  parallel_for(chunks_.size(), settings_.threads, [&](std::size_t i, std::size_t) {
+    const std::uint64_t first = states_[i].before.positions;
+    if (!results_[i].has_colors) colors_.start(first, first + summaries_[i].counts.positions);
+  });
 }
 
 void ObjReader::check_triangles() {
@@ -217,6 +229,7 @@ void ObjReader::finish_materials() {
   bool used = desc_.materials.empty();
   for (const ObjChunkResult& result : results_) used = used || result.uses_default_material;
   if (used) desc_.materials.push_back(default_material());
+  if (desc_.colors.size() != 0) show_vertex_colors(desc_, plan_.default_material);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "src/load/texture_file.hpp"
 
 #include "src/load/source.hpp"
+#include "src/load/srgb.hpp"
 #include "src/load/text.hpp"
 #include "src/modules/open.hpp"
 #include "src/modules/pictures.hpp"
@@ -10,7 +11,6 @@
 #include <fastrt/error.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -61,11 +61,6 @@ std::string contents_of(const std::filesystem::path& path) {
   return bytes;
 }
 
-// From a 16-bit code's share of 1 to linear light.
-float linear_of(float code) {
-  return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
-}
-
 Image image_of(const DecodedPicture& read, TextureCode code) {
   const std::size_t count = 4 * static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
   if (read.is_float == 0)
@@ -74,7 +69,7 @@ Image image_of(const DecodedPicture& read, TextureCode code) {
   auto* const values = static_cast<float*>(read.rgba);
   if (read.is_linear == 0 && code == TextureCode::color)
     for (std::size_t i = 0; i < count; ++i)
-      if (i % 4 != 3) values[i] = linear_of(values[i]);
+      if (i % 4 != 3) values[i] = linear_of_srgb(values[i]);
   return {read.width, read.height, std::span<const float>(values, count)};
 }
 

@@ -71,6 +71,23 @@ TEST(ObjFiles, MaterialFilesMayComeLateAndTheDefaultIsLeftOutIfUnused) {
   EXPECT_EQ(loaded.desc.materials[0].name, "one");
 }
 
+// Those of a material file are multiplied, unless a picture says which colour there is.
+TEST(ObjFiles, MaterialsShowVertexColors) {
+  const TemporaryFolder folder;
+  folder.write("s.mtl", "newmtl red\nKd 0.5 0 0\nnewmtl painted\nmap_Kd missing.png\n");
+  const Loaded loaded =
+      load(folder.write("s.obj", "mtllib s.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\n"
+                                 "f 1 2 3\nusemtl painted\nf 1 2 3\n"));
+  ASSERT_EQ(loaded.desc.materials.size(), 3U);
+  const Material &red = loaded.desc.materials[0], &painted = loaded.desc.materials[1],
+                 &plain = loaded.desc.materials[2];
+  EXPECT_TRUE(red.vertex_colors);
+  EXPECT_EQ(red.diffuse, Vec3(0.5F, 0, 0));
+  EXPECT_FALSE(painted.vertex_colors);
+  EXPECT_TRUE(plain.vertex_colors);
+  EXPECT_EQ(plain.diffuse, Vec3(1.0F));
+}
+
 TEST(ObjFiles, MissingMaterialFilesAreWarnings) {
   const TemporaryFolder folder;
   const auto scene = folder.write("s.obj", std::string("mtllib missing.mtl\nmtllib a b.mtl\n") + triangle);

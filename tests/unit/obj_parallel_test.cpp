@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 // A file with everything in it, in random order.
-std::string make_file(unsigned seed, int statements, const char* line_end) {
+std::string make_file(unsigned seed, int statements, const char* line_end, bool has_colors = false) {
   std::mt19937 random(seed);
   const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   std::string text;
@@ -29,6 +29,8 @@ std::string make_file(unsigned seed, int statements, const char* line_end) {
     case 4:
       text += "v " + number() + ' ' + number() +
               (below(9) == 0 ? std::string(" \\") + line_end + "  " : " ") + number();
+      if (has_colors && i > statements / 2 && below(2) == 0)
+        for (int k = 0; k < 3; ++k) text += below(99) == 0 ? " 1.5" : " 0." + std::to_string(below(1000));
       ++v;
       break;
     case 1:
@@ -80,9 +82,11 @@ ObjReaderSettings settings_with(std::size_t chunk_bytes, int threads) {
 
 TEST(ObjParallel, ChunksAndThreadsDoNotMatter) {
   for (const char* line_end : {"\n", "\r\n", "\r"}) {
-    for (unsigned seed = 0; seed < 2; ++seed) {
-      const std::string text = make_file(seed, 500, line_end);
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      const bool has_colors = seed == 2;
+      const std::string text = make_file(seed, 500, line_end, has_colors);
       const Loaded whole = parse(text, settings_with(1U << 20U, 1));
+      EXPECT_EQ(whole.desc.colors.size(), has_colors ? whole.desc.positions.size() : 0U);
       EXPECT_GT(whole.desc.triangles.size(), 100U);
       EXPECT_TRUE(is_sound(whole.desc));
       for (const std::size_t chunk_bytes : {4UL, 31UL, 200UL, 5000UL})

@@ -47,12 +47,56 @@ TEST(ObjStatements, LayoutDoesNotMatter) {
         "v 0 \\\r\n0 0\r\nv 1 0 0\r\nv 0 1 0\r\no a b\r\nf 1 2 \\\r\n 3\r\n",
         "\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a b\nf 1 2 3\n",
         "# a comment is not continued \\\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a b\nf 1 2 3\n",
-        "v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 .5 .5 .5\no a b\nf 1 2 3\n"}) {
+        "v 0 0 0 1\nv 1 0 0 .5\nv 0 1 0 1.0\no a b\nf 1 2 3\n"}) {
     Loaded other = parse(text);
     if (text.find("o a \\") != std::string::npos) other.desc.object_names = plain.desc.object_names;
     EXPECT_TRUE(same_columns(plain.desc, other.desc)) << text;
     EXPECT_EQ(other.diagnostics.count(), 0U) << text;
   }
+}
+
+// They are sRGB codes; positions without one are white.
+TEST(ObjStatements, PositionsMayHaveColors) {
+  const std::string rest = "v 3 3 3 2\nf 1 2 3\n";
+  for (const std::string& text :
+       {"v 1 2 3 1 0.5 0\nv 4 5 6\nv 0 0 9 0.5 1 0.5 0.04\n" + rest,
+        "v 1 2 3  1.0 .5 0.0 # warm\nv 4 5 6\nv 0 0 9\t1 1e0 5e-1 \\\n .04\n" + rest}) {
+    const Loaded loaded = parse(text);
+    EXPECT_EQ(loaded.diagnostics.count(), 0U);
+    const Columns3& colors = loaded.desc.colors;
+    ASSERT_EQ(colors.size(), 4U);
+    EXPECT_EQ(loaded.desc.positions[0], Vec3(1, 2, 3));
+    EXPECT_EQ(colors.x[0], 1.0F);
+    EXPECT_NEAR(colors.y[0], 0.21404114, 1e-7);
+    EXPECT_EQ(colors.z[0], 0.0F);
+    EXPECT_EQ(colors[1], Vec3(1.0F));
+    EXPECT_EQ(colors.x[2], 1.0F);
+    EXPECT_NEAR(colors.z[2], 0.04 / 12.92, 1e-8);
+    EXPECT_EQ(colors[3], Vec3(1.0F)); // only a weight
+    ASSERT_EQ(loaded.desc.materials.size(), 1U);
+    EXPECT_TRUE(loaded.desc.materials[0].vertex_colors);
+    EXPECT_EQ(loaded.desc.materials[0].diffuse, Vec3(1.0F));
+    EXPECT_EQ(loaded.desc.materials[0].ambient, Vec3(1.0F));
+    EXPECT_NO_THROW(Scene(SceneDesc(loaded.desc)));
+  }
+  const Loaded plain = parse(quad + std::string("f 1 2 3\n"));
+  EXPECT_EQ(plain.desc.colors.size(), 0U);
+  EXPECT_FALSE(plain.desc.materials[0].vertex_colors);
+}
+
+TEST(ObjStatements, OddColorsAreWarnedAbout) {
+  const Loaded loaded = parse("v 0 0 0 2 -1 0.5\nv 1 0 0 1 1\nv 0 1 0 1 0 0 0 0.5\nf 1 2 3\n");
+  const auto lines = loaded.warnings();
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_TRUE(contains(lines[0], "t.obj:1:1: a colour's numbers go from 0 to 1"));
+  EXPECT_TRUE(contains(lines[1], "t.obj:2:1: 5 numbers after 'v'"));
+  EXPECT_TRUE(contains(lines[2], "t.obj:3:1: 8 numbers after 'v'"));
+  EXPECT_EQ(loaded.desc.colors.x[0], 1.0F);
+  EXPECT_EQ(loaded.desc.colors.y[0], 0.0F);
+  EXPECT_NEAR(loaded.desc.colors.z[0], 0.21404114, 1e-7);
+  EXPECT_EQ(loaded.desc.colors[1], Vec3(1.0F));
+  EXPECT_EQ(loaded.desc.colors[2], Vec3(1.0F));
+  EXPECT_TRUE(contains(error_of("v 0 0 0\nv 1 2 3 0.5 x 1\n"), "t.obj:2:13: not a number: 'x'"));
 }
 
 TEST(ObjStatements, CornersMayNameTextureCoordinatesAndNormals) {

@@ -56,8 +56,9 @@ inline bool same_columns(const SceneDesc& a, const SceneDesc& b) {
   const TriangleColumns &s = a.triangles, &t = b.triangles;
   return a.positions.x == b.positions.x && a.positions.y == b.positions.y && a.positions.z == b.positions.z &&
          a.normals.x == b.normals.x && a.normals.y == b.normals.y && a.normals.z == b.normals.z &&
-         a.uvs.x == b.uvs.x && a.uvs.y == b.uvs.y && s.v0 == t.v0 && s.v1 == t.v1 && s.v2 == t.v2 &&
-         s.n0 == t.n0 && s.n1 == t.n1 && s.n2 == t.n2 && s.t0 == t.t0 && s.t1 == t.t1 && s.t2 == t.t2 &&
+         a.uvs.x == b.uvs.x && a.uvs.y == b.uvs.y && a.colors.x == b.colors.x && a.colors.y == b.colors.y &&
+         a.colors.z == b.colors.z && s.v0 == t.v0 && s.v1 == t.v1 && s.v2 == t.v2 && s.n0 == t.n0 &&
+         s.n1 == t.n1 && s.n2 == t.n2 && s.t0 == t.t0 && s.t1 == t.t1 && s.t2 == t.t2 &&
          s.material == t.material && s.object == t.object && a.object_names == b.object_names &&
          a.materials.size() == b.materials.size();
 }

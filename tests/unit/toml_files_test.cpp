@@ -120,6 +120,21 @@ TEST(TomlSidecars, CompleteAnObjFile) {
   EXPECT_EQ(alone.materials[alone.triangles.material[0]].diffuse, Vec3(1, 0, 0));
 }
 
+TEST(TomlSidecars, SayWhichMaterialsShowVertexColors) {
+  TomlTexts texts;
+  std::string colored = house;
+  colored.replace(colored.find("v 0 0 0"), 7, "v 0 0 0 1 0 0");
+  texts.folder().write("house.obj", colored);
+  texts.folder().write("house.mtl", "newmtl wall\nmap_Kd missing.png\n");
+  for (const bool shows : {true, false}) {
+    texts.folder().write("house.toml",
+                         std::string("[material.wall]\nvertex_colors = ") + (shows ? "true" : "false"));
+    const SceneDesc desc = load_house(texts).desc;
+    EXPECT_EQ(desc.materials[desc.triangles.material[0]].vertex_colors, shows);
+    EXPECT_NO_THROW(Scene{desc});
+  }
+}
+
 TEST(TomlSidecars, AreOfTheSceneAlone) {
   TomlTexts texts;
   texts.folder().write("house.obj", house);
