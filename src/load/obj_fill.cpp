@@ -51,20 +51,24 @@ inline __m128i corner_totals(const ObjCounts& totals) {
   return true;
 }
 
-// Takes v, v/t, v//n or v/t/n behind spaces, and goes to the space or line end behind it.
+// Takes an index behind a slash as take_reference does; where none stands there it stays no_index.
+[[gnu::always_inline]] inline bool take_optional(MarkedText& p, std::uint64_t total, std::uint64_t so_far,
+                                                 std::uint32_t& index) {
+  if (p.length() != 0) return take_reference(p, total, so_far, index);
+  ++p.at;
+  return true;
+}
+
+// Takes v, v/t, v//n or v/t/n behind spaces, also with a slash and nothing behind it, and goes to the space
+// or line end behind it.
 [[gnu::always_inline]] inline bool take_corner(MarkedText& p, const ObjCounts& totals,
                                                const ObjCounts& so_far, Corner& corner) {
   skip_spaces(p);
   if (p.at_line_end()) return false;
   corner.t = corner.n = no_index;
   if (!take_reference(p, totals.positions, so_far.positions, corner.v)) return false;
-  if (p.mark() == '/') {
-    if (p.place()[1] == '/')
-      ++p.at;
-    else if (!take_reference(p, totals.uvs, so_far.uvs, corner.t))
-      return false;
-    if (p.mark() == '/' && !take_reference(p, totals.normals, so_far.normals, corner.n)) return false;
-  }
+  if (p.mark() == '/' && !take_optional(p, totals.uvs, so_far.uvs, corner.t)) return false;
+  if (p.mark() == '/' && !take_optional(p, totals.normals, so_far.normals, corner.n)) return false;
   return p.at_space_or_end();
 }
 
@@ -125,21 +129,6 @@ bool ObjFiller::take_polygon(MarkedText& p, std::span<const Corner> first) {
   if (!match(corners_)) return false;
   put_face(corners_);
   return true;
-}
-
-// False, and nothing done, if there is something to be said about it.
-bool ObjFiller::put_colored(std::span<const float> numbers, std::size_t count) {
-  if (!has_color(count) || !is_srgb(color_in(numbers, count))) return false;
-  put_position(numbers);
-  put_color(color_in(numbers, count));
-  return true;
-}
-
-// Of the last position.
-void ObjFiller::put_color(std::span<const float, 3> color) {
-  if (!result_->has_colors) colors_.start(first_position_, last_.positions);
-  result_->has_colors = true;
-  colors_.put(now_.before.positions - 1, color);
 }
 
 // As a fan for now: its corners are those of the first triangle and then the last one of each.

@@ -91,22 +91,6 @@ bool ObjFiller::read_vertex(std::string_view keyword, std::string_view line) {
   return true;
 }
 
-// What stands behind the last position.
-void ObjFiller::read_color(std::span<const float> numbers, std::size_t count) {
-  if (count <= 4) return;
-  if (!has_color(count)) {
-    result_->log.warn(line_offset_, "position with odd numbers",
-                      std::to_string(count) + " numbers after 'v': expected x y z, behind them a weight or a "
-                                              "colour or both; only x y z are used");
-    return;
-  }
-  const std::span<const float, 3> color = color_in(numbers, count);
-  if (!is_srgb(color))
-    result_->log.warn(line_offset_, "vertex colour",
-                      "a colour's numbers go from 0 to 1; others count as the nearest of these");
-  put_color(color);
-}
-
 bool ObjFiller::read_face(std::string_view line) {
   corners_.clear();
   Words words(line);
@@ -144,7 +128,7 @@ bool ObjFiller::read_corner(std::string_view line, std::string_view word, Corner
   for (int which = 0;; ++which) {
     const std::size_t end = std::min(word.find('/', begin), word.size());
     const std::string_view part = word.substr(begin, end - begin);
-    const bool left_out = part.empty() && which == 1 && end != word.size(); // v//n
+    const bool left_out = part.empty() && which > 0; // v//n, and v/ and v// of some exporters
     if (which == 3 || (part.empty() && !left_out)) {
       result_->log.fail(offset + begin, "expected v, v/vt, v//vn or v/vt/vn, found " + in_quotes(word));
       return false;

@@ -121,6 +121,23 @@ TEST(ObjStatements, CornersMayNameTextureCoordinatesAndNormals) {
   EXPECT_EQ(some.diagnostics.count(), 0U);
 }
 
+// As some exporters write what has no texture coordinates or no normals.
+TEST(ObjStatements, CornersMayEndInSlashes) {
+  const std::string head = std::string(quad) + "vt 0 0\nvn 0 0 1\n";
+  for (const std::string bare :
+       {"f 1 2 3\n", "f 1// 2// 3//\n", "f 1/ 2/ 3/\n", "f  1// 2/ -2\t\n", "f 1// \\\n2/ 3//\n"}) {
+    const Loaded loaded = parse(head + bare);
+    EXPECT_EQ(values(loaded.desc.triangles.v2), Indices{2}) << bare;
+    EXPECT_TRUE(loaded.desc.triangles.t0.empty()) << bare;
+    EXPECT_TRUE(loaded.desc.triangles.n0.empty()) << bare;
+    EXPECT_EQ(loaded.diagnostics.count(), 0U) << bare;
+  }
+  const Loaded uvs = parse(head + "f 1/1/ 2/1/ 3/-1/ 4/1\n");
+  EXPECT_EQ(values(uvs.desc.triangles.t0), (Indices{0, 0}));
+  EXPECT_TRUE(uvs.desc.triangles.n0.empty());
+  EXPECT_EQ(uvs.diagnostics.count(), 0U);
+}
+
 TEST(ObjStatements, MixedCornersAreKeptWithAWarning) {
   const Loaded loaded = parse(std::string(quad) + "vt 0 0\nvn 0 0 1\nf 1/1 2//1 3\n");
   EXPECT_EQ(loaded.desc.triangles.t0[0], 0U);
