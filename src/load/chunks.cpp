@@ -56,7 +56,7 @@ std::uint64_t check_start(const Source& source) {
   const bool wide = source.size() >= 2 && (text[0] == '\0') != (text[1] == '\0');
   if (wide || text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw InputError(source.name(), 1, 1, "looks like UTF-16; save it as UTF-8");
-  return text == "\xEF\xBB\xBF" ? 3 : 0;
+  return text_begin(text);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ std::vector<MtlRecord> MtlParser::run(std::string_view text) {
   bytes.push_back('\n');
   char* const begin = bytes.data();
   char* const end = begin + text.size();
-  for (char* p = begin + (text.starts_with("\xEF\xBB\xBF") ? 3 : 0); p != end;) {
+  for (char* p = begin + text_begin(text); p != end;) {
     const Line line = take_line(p, end);
     line_offset_ = static_cast<std::uint64_t>(line.begin - begin);
     p = line.next;

@@ -211,7 +211,7 @@ SceneDesc read_nff(const Source& source, bool strict, Diagnostics& diagnostics) 
   }
   EventReport report;
   report.take(std::move(log));
-  report.deliver(source, {{0, 0}}, strict, diagnostics);
+  report.deliver(source, {{text_begin(text), 0}}, strict, diagnostics);
   source.check_unchanged();
   return desc;
 }

@@ -2,7 +2,6 @@
 #include "src/load/nff_tokens.hpp"
 
 #include "src/load/number.hpp"
-#include "src/load/text.hpp"
 
 #include <utility>
 

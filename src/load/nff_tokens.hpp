@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/load/event_log.hpp"
+#include "src/load/text.hpp"
 
 #include <fastrt/math.hpp>
 
@@ -21,8 +22,8 @@ inline constexpr std::size_t nff_padding = 16;
 
 class NffTokens {
 public:
-  // After the text come `nff_padding` bytes that are 0.
-  NffTokens(std::string_view text, EventLog& log) : text_(text), log_(log) {}
+  // After the text come `nff_padding` bytes that are 0. A byte order mark is passed over.
+  NffTokens(std::string_view text, EventLog& log) : text_(text), log_(log), end_(text_begin(text)) {}
 
   // The next word; empty at the end of the file.
   std::string_view word();
@@ -51,7 +52,7 @@ private:
 
   std::string_view text_;
   EventLog& log_;
-  std::size_t offset_ = 0, end_ = 0;
+  std::size_t offset_ = 0, end_;
 };
 
 } // namespace fastrt

@@ -121,7 +121,7 @@ private:
   const std::string& name_;
   PlyHeader header_;
   std::string_view line_;
-  std::size_t at_ = 0;
+  std::size_t at_ = text_begin(bytes_);
   std::size_t line_number_ = 0;
   bool has_format_ = false;
 };

@@ -11,6 +11,9 @@ namespace fastrt {
 // The longest line, continuations included.
 inline constexpr std::size_t max_line_bytes = std::size_t{1} << 20U;
 
+// Where a text begins: behind the byte order mark that some editors write, or at 0.
+inline std::size_t text_begin(std::string_view bytes) { return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0; }
+
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 

@@ -59,6 +59,14 @@ TEST(Nff, TakesTheViewInAnyOrder) {
   EXPECT_EQ(result.diagnostics.count(), 0U);
 }
 
+TEST(Nff, AByteOrderMarkIsNoWord) {
+  const Read result = read("\xEF\xBB\xBFv from 1 2 3 at 4 5 6 up 0 0 1 angle 45\n" + fill + "s 0 0 0 1\n");
+  ASSERT_TRUE(result.desc.camera);
+  EXPECT_EQ(result.desc.camera->eye, Vec3(1, 2, 3));
+  EXPECT_EQ(result.diagnostics.count(), 0U);
+  EXPECT_EQ(warning_of("\xEF\xBB\xBFq 1\n").substr(0, 34), "t.nff:1:1: unknown statement 'q': ");
+}
+
 TEST(Nff, LightsWithoutAColourShareTheRootOfTheirNumber) {
   const SceneDesc desc = read("l 1 2 3 l 4 5 6 0.5 0.6 0.7\nl 7 8 9\nl 1 1 1 b 0.1 0.2 0.3").desc;
   ASSERT_EQ(desc.lights.size(), 4U);

@@ -81,6 +81,12 @@ TEST(PlyReader, TextWithAPolygon) {
   }
 }
 
+TEST(PlyReader, AByteOrderMarkIsPassedOver) {
+  const Read found = read("\xEF\xBB\xBF" + plain_header + square + "4 0 1 2 3");
+  EXPECT_EQ(found.desc.triangles.size(), 2U);
+  EXPECT_TRUE(found.warnings.empty());
+}
+
 // The same file in all three formats, with normals, colours, coordinates and things to skip.
 TEST(PlyReader, BinaryOfBothEndiansEqualsText) {
   const std::string rest =
