@@ -24,7 +24,8 @@ struct LoadOptions {
 SceneDesc load_obj(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // Reads a PLY file, ascii or binary: triangles, polygons and triangle strips, with normals, texture
-// coordinates and vertex colours. Throws as load_obj does; places in binary data are given in bytes.
+// coordinates, vertex colours and the texture that its header names. Throws as load_obj does; places in
+// binary data are given in bytes.
 SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // Reads a file of the Neutral File Format: primitives, materials, lights, background, and the camera and size

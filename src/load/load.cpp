@@ -3,7 +3,9 @@
 #include "src/load/nff_reader.hpp"
 #include "src/load/obj_reader.hpp"
 #include "src/load/ply_reader.hpp"
+#include "src/load/scene_folder.hpp"
 #include "src/load/text.hpp"
+#include "src/load/texture_file.hpp"
 #include "src/load/toml_reader.hpp"
 #include "src/scene/threads.hpp"
 
@@ -36,6 +38,13 @@ SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options
   PlyReaderSettings settings;
   settings.strict = options.strict;
   settings.object_name = path.stem().string();
+  const SceneFolder folder(path, options.allow_external_files);
+  settings.read_texture = [&folder](const std::string& name) {
+    const SceneFolder::Answer answer = folder.find(name, folder.root());
+    const bool found = answer.finding == SceneFolder::Finding::regular;
+    return found ? read_texture(answer.path, TextureCode::color)
+                 : TextureFile{nullptr, texture_fault(answer.finding)};
+  };
   SceneDesc desc = read_ply(source, settings, diagnostics);
   source.check_unchanged();
   return desc;

@@ -4,6 +4,7 @@
 #include "src/load/mtl.hpp"
 #include "src/load/source.hpp"
 #include "src/load/text.hpp"
+#include "src/load/texture_file.hpp"
 #include "src/scene/threads.hpp"
 
 #include <fastrt/error.hpp>
@@ -25,16 +26,7 @@ MtlOptions::TextureVerdict check_texture(const SceneFolder& folder, const fs::pa
                                          const std::string& name) {
   SceneFolder::Answer answer = folder.find(name, beside);
   if (answer.finding == Finding::missing) answer = folder.find(name, folder.root());
-  switch (answer.finding) {
-  case Finding::regular:
-    return {{}, std::move(answer.path)};
-  case Finding::missing:
-    return {"does not exist", {}};
-  case Finding::outside:
-    return {"lies outside the scene directory; it is not used", {}};
-  default:
-    return {"is no regular file; it is not used", {}};
-  }
+  return {texture_fault(answer.finding), std::move(answer.path)};
 }
 
 } // namespace

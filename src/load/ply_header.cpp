@@ -51,11 +51,22 @@ private:
   }
 
   void read(std::string_view keyword, Words& words) {
-    if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return;
+    if (keyword.empty() || keyword == "obj_info") return;
+    if (keyword == "comment") return read_comment(words);
     if (keyword == "format") return read_format(words);
     if (keyword == "element") return read_element(words);
     if (keyword == "property") return read_property(words);
     fail(words.position(), "unknown keyword " + in_quotes(keyword) + " in the header");
+  }
+
+  Place place_of(std::string_view word) const {
+    return {line_number_, static_cast<std::size_t>(word.data() - line_.data()) + 1};
+  }
+
+  void read_comment(Words& words) {
+    if (words.next() != "TextureFile") return;
+    const std::string_view name = trimmed(words.rest());
+    if (!name.empty()) header_.textures.push_back({std::string(name), place_of(name)});
   }
 
   void read_format(Words& words) {
@@ -112,7 +123,9 @@ private:
       if (!is_integer(property.count_type)) fail(words.position(), "a list's length must be an integer");
     }
     property.type = take_type(words);
-    property.name = std::string(words.next());
+    const std::string_view name = words.next();
+    property.name = std::string(name);
+    property.place = place_of(name);
     if (property.name.empty()) fail(words.position(), "a property without a name");
     header_.elements.back().properties.push_back(std::move(property));
   }

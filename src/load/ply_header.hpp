@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "src/load/event_log.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,6 +22,7 @@ struct PlyProperty {
   PlyType type = PlyType::float32; // of a list: of its items
   bool is_list = false;
   PlyType count_type = PlyType::uint8; // of lists
+  Place place;                         // of its name
 };
 
 struct PlyElement {
@@ -30,9 +33,16 @@ struct PlyElement {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
+// What a line "comment TextureFile NAME" says.
+struct PlyTexture {
+  std::string name;
+  Place place;
+};
+
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
+  std::vector<PlyTexture> textures;
   std::size_t size = 0; // in bytes: where the data begin
 };
 

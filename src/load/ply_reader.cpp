@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/ply_reader.hpp"
 
-#include "src/load/mtl.hpp"
 #include "src/load/ply_cursor.hpp"
+#include "src/load/ply_material.hpp"
 #include "src/load/ply_vertices.hpp"
 #include "src/load/polygon.hpp"
 #include "src/load/text.hpp"
@@ -54,6 +54,12 @@ private:
   void warn(const char* kind, const std::string& message) {
     if (settings_.strict) throw InputError(message);
     diagnostics_.warn(kind, message);
+  }
+
+  PlyWarning placed_warning() {
+    return [this](const char* kind, const Place& place, const std::string& message) {
+      warn(kind, InputError(name_, place.line, place.column, message).what());
+    };
   }
 
   // Finding a line takes time: only for warnings that are shown.
@@ -149,6 +155,7 @@ std::uint64_t PlyReader::read_plain_triangles(const PlyProperty& property, std::
 void PlyReader::read_faces(const PlyElement& element, PlyCursor& cursor) {
   const PlyProperty* const indices = find_list(element);
   if (indices == nullptr) return skip(element, cursor);
+  warn_about_face_properties(element, placed_warning());
   for (auto* column : {&desc_.triangles.v0, &desc_.triangles.v1, &desc_.triangles.v2})
     column->reserve(column->size() + element.count);
   std::uint64_t first = 0;
@@ -237,12 +244,7 @@ void PlyReader::finish() {
   t.material.resize(t.size(), 0);
   t.object.resize(t.size(), 0);
   desc_.object_names = {settings_.object_name};
-  Material material = default_material();
-  if (desc_.colors.size() != 0) {
-    material.ambient = material.diffuse = Vec3(1.0F);
-    material.vertex_colors = true;
-  }
-  desc_.materials = {material};
+  add_ply_material(header_, settings_, placed_warning(), desc_);
 }
 
 } // namespace

@@ -123,6 +123,19 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
   }
 }
 
+const char* texture_fault(SceneFolder::Finding finding) {
+  switch (finding) {
+  case SceneFolder::Finding::regular:
+    return "";
+  case SceneFolder::Finding::missing:
+    return "does not exist";
+  case SceneFolder::Finding::outside:
+    return "lies outside the scene directory; it is not used";
+  default:
+    return "is no regular file; it is not used";
+  }
+}
+
 Texture missing_texture(const std::string& name) {
   Texture texture;
   texture.name = name;

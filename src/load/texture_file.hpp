@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "src/load/scene_folder.hpp"
+
 #include <fastrt/texture.hpp>
 
 #include <filesystem>
@@ -23,6 +25,9 @@ struct TextureFile {
 // Reads a picture: PNG, JPEG, EXR, HDR, TGA, PNM, BMP or TIFF, told apart by their first bytes. Opens regular
 // files alone. Throws nothing but std::bad_alloc.
 TextureFile read_texture(const std::filesystem::path& path, TextureCode code);
+
+// What is said of a texture file that was found so; "" if it may be opened.
+const char* texture_fault(SceneFolder::Finding finding);
 
 // What a surface shows whose texture is missing: a checker of magenta and grey.
 Texture missing_texture(const std::string& name);

@@ -12,8 +12,6 @@
 namespace fastrt {
 namespace {
 
-using Finding = SceneFolder::Finding;
-
 constexpr std::string_view keys[] = {"file",  "checker", "gradient", "plane",   "scale",     "offset",
                                      "clamp", "gain",    "base",     "channel", "colorspace"};
 
@@ -72,10 +70,8 @@ void wish_for(const TomlFile& file, const TomlValue& name, TomlTexture& wish, co
   wish.file = file.name;
   wish.place = name.place();
   SceneFolder::Answer answer = scene.confines.find(name.text(), file.folder);
-  if (answer.finding == Finding::regular) wish.path = std::move(answer.path);
-  if (answer.finding == Finding::missing) wish.fault = "does not exist";
-  if (answer.finding == Finding::outside) wish.fault = "lies outside the scene directory; it is not used";
-  if (answer.finding == Finding::special) wish.fault = "is no regular file; it is not used";
+  wish.path = std::move(answer.path);
+  wish.fault = texture_fault(answer.finding);
 }
 
 // Materials do without a texture that has no picture.

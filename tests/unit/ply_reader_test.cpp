@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/ply_reader.hpp"
+#include "tests/unit/obj_test_support.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -193,6 +194,73 @@ TEST(PlyReader, OddFacesAreWarnedAbout) {
   EXPECT_EQ(found.warnings[0], "t.ply:15:8: face of 2 vertices skipped");
   EXPECT_EQ(found.warnings[1], "t.ply:16:6: triangle without area skipped");
   EXPECT_THROW(read(text, true), InputError);
+}
+
+const std::string textured_header =
+    "ply\nformat ascii 1.0\ncomment TextureFile  my wood.png \nelement vertex 3\nproperty float x\n"
+    "property float y\nproperty float z\nproperty float texture_u\nproperty float texture_v\n"
+    "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n";
+const std::string textured_rows = "0 0 0 0 0 9 9 9\n1 0 0 1 0 9 9 9\n0 1 0 0 1 9 9 9\n3 0 1 2\n";
+
+TEST(PlyReader, TakesTheTextureThatItsHeaderNames) {
+  const test::TemporaryFolder folder;
+  folder.write("my wood.png", "P3 1 1 255 255 0 0\n"); // told apart by its contents
+  Diagnostics diagnostics;
+  const SceneDesc desc = load_ply(folder.write("t.ply", textured_header + textured_rows), {}, diagnostics);
+  EXPECT_EQ(diagnostics.lines(), std::vector<std::string>{});
+  ASSERT_EQ(desc.materials.size(), 1U);
+  const Material& material = desc.materials[0];
+  ASSERT_EQ(material.diffuse_texture, 0U);
+  EXPECT_EQ(material.ambient_texture, 0U);
+  EXPECT_EQ(material.diffuse, Vec3(1.0F));
+  EXPECT_FALSE(material.vertex_colors); // the picture says which colour there is
+  ASSERT_EQ(desc.textures.size(), 1U);
+  EXPECT_EQ(desc.textures[0].name, "my wood.png");
+  EXPECT_EQ(desc.textures[0].kind, TextureKind::image);
+  EXPECT_NE(desc.textures[0].image, nullptr);
+  EXPECT_NO_THROW(Scene(SceneDesc(desc)));
+}
+
+TEST(PlyReader, TexturesThatCantBeUsedAreWarnedAbout) {
+  const test::TemporaryFolder folder;
+  folder.write("outside.png", "");
+  const auto lines_of = [&](const std::string& header, const std::string& rows, SceneDesc& desc) {
+    Diagnostics diagnostics;
+    desc = load_ply(folder.write("scene/t.ply", header + rows), {}, diagnostics);
+    return diagnostics.lines();
+  };
+  const std::string start = (folder.path() / "scene/t.ply").string();
+  SceneDesc desc;
+  auto lines = lines_of(textured_header, textured_rows, desc);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0], start + ":3:22: texture 'my wood.png' does not exist");
+  EXPECT_EQ(desc.textures.at(desc.materials.at(0).diffuse_texture).kind, TextureKind::checker);
+  std::string header = textured_header;
+  header.replace(header.find(" my wood.png "), 13, "../outside.png\ncomment TextureFile b.png");
+  lines = lines_of(header, textured_rows, desc);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0], start + ":4:21: several textures are not supported: the first one is used");
+  EXPECT_EQ(lines[1],
+            start + ":3:21: texture '../outside.png' lies outside the scene directory; it is not used");
+  header = plain_header;
+  header.replace(header.find("any"), 3, "TextureFile a.png");
+  lines = lines_of(header, square + "4 0 1 2 3\n", desc);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0], start + ":3:21: texture 'a.png' is not used: the vertices have no texture coordinates");
+  EXPECT_EQ(desc.materials.at(0).diffuse_texture, no_texture);
+}
+
+TEST(PlyReader, WhatFacesHaveBesideVerticesIsWarnedAbout) {
+  std::string header = plain_header;
+  header.insert(header.find("end_header"), "property list uchar float texcoord\nproperty int texnumber\n"
+                                           "property uchar red\nproperty uchar green\nproperty uchar blue\n");
+  const Read found = read(header + square + "4 0 1 2 3 8 0 0 1 0 1 1 0 1 0 255 0 0\n");
+  EXPECT_EQ(found.desc.triangles.size(), 2U);
+  ASSERT_EQ(found.warnings.size(), 2U);
+  EXPECT_EQ(found.warnings[0],
+            "t.ply:10:27: texture coordinates of faces are not supported and skipped; those of vertices are");
+  EXPECT_EQ(found.warnings[1], "t.ply:12:16: colours of faces are not supported and skipped");
 }
 
 TEST(PlyReader, TruncationAnywhereDoesNoHarm) {
