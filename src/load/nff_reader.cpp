@@ -5,6 +5,7 @@
 #include "src/load/nff_scene.hpp"
 #include "src/load/nff_tokens.hpp"
 #include "src/load/text.hpp"
+#include "src/load/warn.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -212,6 +213,7 @@ SceneDesc read_nff(const Source& source, bool strict, Diagnostics& diagnostics) 
   EventReport report;
   report.take(std::move(log));
   report.deliver(source, {{text_begin(text), 0}}, strict, diagnostics);
+  warn_without_primitives(desc, source.name(), strict, diagnostics);
   source.check_unchanged();
   return desc;
 }

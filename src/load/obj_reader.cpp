@@ -7,6 +7,7 @@
 #include "src/load/parallel_for.hpp"
 #include "src/load/smoothing.hpp"
 #include "src/load/triangle_check.hpp"
+#include "src/load/warn.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -218,10 +219,7 @@ void ObjReader::report(Diagnostics& diagnostics) {
     lines += summaries_[i].lines;
   }
   report.deliver(source_, anchors, settings_.strict, diagnostics);
-  if (desc_.triangles.size() != 0) return;
-  const std::string message = source_.name() + ": no primitives";
-  if (settings_.strict) throw InputError(message);
-  diagnostics.warn("no primitives", message);
+  warn_without_primitives(desc_, source_.name(), settings_.strict, diagnostics);
 }
 
 // The default material lies behind all others, so it can be left out when nothing uses it.

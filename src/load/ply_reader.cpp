@@ -6,10 +6,11 @@
 #include "src/load/ply_vertices.hpp"
 #include "src/load/polygon.hpp"
 #include "src/load/text.hpp"
+#include "src/load/triangle_fault.hpp"
+#include "src/load/warn.hpp"
 
 #include <fastrt/error.hpp>
 
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -45,15 +46,14 @@ public:
       else
         skip(element, cursor);
     }
-    if (desc_.triangles.size() == 0) warn("no primitives", name_ + ": no primitives");
+    warn_without_primitives(desc_, name_, settings_.strict, diagnostics_);
     finish();
     return std::move(desc_);
   }
 
 private:
   void warn(const char* kind, const std::string& message) {
-    if (settings_.strict) throw InputError(message);
-    diagnostics_.warn(kind, message);
+    fastrt::warn(kind, message, settings_.strict, diagnostics_);
   }
 
   PlyWarning placed_warning() {
@@ -223,14 +223,10 @@ void PlyReader::add_polygon(const char* place, const PlyCursor& cursor) {
   for (const auto& [a, b, c] : triangles_) add_triangle(corners_[a], corners_[b], corners_[c], place, cursor);
 }
 
-// Tested with the very cross product that shading normalises later: 0 and overflow have no normal.
 void PlyReader::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const char* place,
                              const PlyCursor& cursor) {
-  const Vec3 origin = desc_.positions[a];
-  const Vec3 normal = glm::cross(desc_.positions[b] - origin, desc_.positions[c] - origin);
-  const float size = std::fabs(normal.x) + std::fabs(normal.y) + std::fabs(normal.z);
-  if (!(size > 0 && size < infinity))
-    return warn_at("degenerate face", place, cursor, "triangle without area skipped");
+  const TriangleFault fault = fault_of_triangle(desc_.positions[a], desc_.positions[b], desc_.positions[c]);
+  if (fault != TriangleFault::none) return warn_at(kind_of(fault), place, cursor, message_of(fault));
   if (desc_.triangles.size() == most_rows) throw LimitError(name_ + ": more than 2^31 - 1 triangles");
   desc_.triangles.v0.push_back(a);
   desc_.triangles.v1.push_back(b);

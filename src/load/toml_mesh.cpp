@@ -4,6 +4,7 @@
 #include "src/load/scene_append.hpp"
 #include "src/load/text.hpp"
 #include "src/load/toml_scene.hpp"
+#include "src/load/triangle_fault.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -113,7 +114,7 @@ void read_vertices(const TomlFields& fields, SceneDesc& mesh) {
 
 class FaceReader {
 public:
-  explicit FaceReader(SceneDesc& mesh) : mesh_(mesh) {}
+  FaceReader(SceneDesc& mesh, TomlScene& scene) : mesh_(mesh), scene_(scene) {}
 
   void read(const TomlValue& value) {
     const std::vector<TomlValue> corners = value.elements();
@@ -126,11 +127,22 @@ public:
       vertices_.push_back(static_cast<std::uint32_t>(corner.integer(0, last)));
       corners_.push_back(mesh_.positions[vertices_.back()]);
     }
-    triangulator_.run(corners_, triangles_);
-    for (const auto& [a, b, c] : triangles_) push(vertices_[a], vertices_[b], vertices_[c]);
+    if (triangulator_.run(corners_, triangles_).tangled && corners.size() > 3)
+      warn(value, "tangled polygon", "the polygon crosses itself or has no area; it is split into a fan");
+    for (const auto& [a, b, c] : triangles_) {
+      const TriangleFault fault = fault_of_triangle(corners_[a], corners_[b], corners_[c]);
+      if (fault == TriangleFault::none)
+        push(vertices_[a], vertices_[b], vertices_[c]);
+      else
+        warn(value, kind_of(fault), message_of(fault));
+    }
   }
 
 private:
+  void warn(const TomlValue& face, const char* kind, const char* message) {
+    scene_.warn(face.file(), face.place(), kind, message);
+  }
+
   void push(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     TriangleColumns& t = mesh_.triangles;
     t.v0.push_back(a), t.v1.push_back(b), t.v2.push_back(c);
@@ -141,6 +153,7 @@ private:
   }
 
   SceneDesc& mesh_;
+  TomlScene& scene_;
   std::vector<std::uint32_t> vertices_;
   std::vector<Vec3> corners_;
   PolygonTriangulator triangulator_;
@@ -154,7 +167,7 @@ void add_written(const TomlFields& fields, TomlScene& scene) {
   read_vertices(fields, mesh);
   const std::vector<TomlValue> faces = fields.need("faces").elements();
   if (faces.empty()) fields.need("faces").fail("expected at least one face");
-  FaceReader reader(mesh);
+  FaceReader reader(mesh, scene);
   for (const TomlValue& face : faces) reader.read(face);
   const auto name = fields.find("name");
   mesh.object_names.push_back(name ? name->text() : scene.next_name("mesh"));

@@ -5,6 +5,7 @@
 #include "src/load/source.hpp"
 #include "src/load/text.hpp"
 #include "src/load/toml_scene.hpp"
+#include "src/load/warn.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -137,6 +138,7 @@ void read_toml(const fs::path& path, const LoadOptions& options, Diagnostics& di
   load_toml_textures(scene);
   if (scene.desc.colors.size() != 0) pad_colors(scene.desc);
   finish_toml_camera(scene);
+  if (base.empty()) warn_without_primitives(scene.desc, path.string(), options.strict, diagnostics);
   desc = std::move(scene.desc);
 }
 

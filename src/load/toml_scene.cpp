@@ -5,6 +5,7 @@
 #include "src/load/scene_append.hpp"
 #include "src/load/spelling.hpp"
 #include "src/load/text.hpp"
+#include "src/load/warn.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -29,9 +30,7 @@ template <class Map>
 } // namespace
 
 void TomlScene::warn(const std::string& file, TomlPlace place, const char* kind, const std::string& message) {
-  const InputError placed(file, place.line, place.column, message);
-  if (options.strict) throw placed;
-  diagnostics.warn(kind, placed.what());
+  fastrt::warn(kind, InputError(file, place.line, place.column, message).what(), options.strict, diagnostics);
 }
 
 std::uint32_t TomlScene::add_object(std::string name) {

@@ -2,6 +2,7 @@
 #include "src/load/triangle_check.hpp"
 
 #include "src/load/text.hpp"
+#include "src/load/triangle_fault.hpp"
 
 #include <emmintrin.h>
 
@@ -22,7 +23,7 @@ inline __m128 from_lane(__m128 v) {
 
 inline __m128 to_yzx(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 0, 2, 1)); }
 
-// |x| + |y| + |z| of the very cross product that shading normalises later: 0 and overflow have no normal.
+// |x| + |y| + |z| of the normal, as fault_of_triangle() computes it.
 inline float normal_size(const SceneDesc& desc, std::size_t i) {
   const TriangleColumns& rows = desc.triangles;
   const __m128 a = load_position(desc, rows.v0[i]);
@@ -42,7 +43,7 @@ void TriangleCheck::run(std::uint64_t first, std::uint64_t last, bool drop_zero_
   for (std::uint64_t i = first; i < last; ++i) {
     if (drop_zero_normals) forget_zero_normals(i);
     const float size = normal_size(desc_, i);
-    if (!(size > 0 && size < infinity)) drop(i, size == 0, result);
+    if (!(size > 0 && size < modest_normal)) check(i, result);
   }
   std::stable_sort(findings_.begin(), findings_.end(),
                    [](const Finding& a, const Finding& b) { return a.triangle < b.triangle; });
@@ -86,11 +87,13 @@ void TriangleCheck::triangulate(const Polygon& polygon) {
     findings_.push_back({polygon.first_triangle, "bent polygon", "the polygon is far from planar"});
 }
 
-void TriangleCheck::drop(std::size_t i, bool is_degenerate, ObjChunkResult& result) {
-  if (is_degenerate)
-    findings_.push_back({i, "degenerate face", "triangle without area skipped"});
-  else
-    findings_.push_back({i, "huge face", "triangle too large for single precision skipped"});
+// Drops the triangle if no ray can meet it.
+void TriangleCheck::check(std::size_t i, ObjChunkResult& result) {
+  const TriangleColumns& rows = desc_.triangles;
+  const Columns3& at = desc_.positions;
+  const TriangleFault fault = fault_of_triangle(at[rows.v0[i]], at[rows.v1[i]], at[rows.v2[i]]);
+  if (fault == TriangleFault::none) return;
+  findings_.push_back({i, kind_of(fault), message_of(fault)});
   result.dropped.push_back(static_cast<std::uint32_t>(i));
 }
 

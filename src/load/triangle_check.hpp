@@ -31,7 +31,7 @@ private:
   void triangulate(const Polygon& polygon);
   Row corner_of(const Polygon& polygon, std::size_t corner) const;
   void put_row(std::size_t triangle, const std::array<Row, 3>& corners);
-  void drop(std::size_t triangle, bool is_degenerate, ObjChunkResult& result);
+  void check(std::size_t triangle, ObjChunkResult& result);
   void forget_zero_normals(std::size_t triangle);
 
   SceneDesc& desc_;

@@ -42,7 +42,8 @@ std::string warning_of(std::string_view text) {
 const std::string fill = "f 1 0.5 0.25 0.8 0.2 30 0 1\n";
 
 TEST(Nff, TakesTheViewInAnyOrder) {
-  const Read result = read("v\nresolution 512 257 angle 45\nup 0 0 1 from 1 2 3 # eye\nat 4 5 6 hither 1\n");
+  const Read result = read("v\nresolution 512 257 angle 45\nup 0 0 1 from 1 2 3 # eye\nat 4 5 6 hither 1\n" +
+                           fill + "s 0 0 0 1");
   ASSERT_TRUE(result.desc.camera);
   const Camera& camera = *result.desc.camera;
   EXPECT_EQ(camera.eye, Vec3(1, 2, 3));
@@ -124,7 +125,11 @@ TEST(Nff, PolygonsStayPolygonsAndPatchesBecomeTriangles) {
 
 TEST(Nff, FilesOfStatementsWithoutObjectsAreScenes) {
   EXPECT_EQ(read("").desc.object_names.size(), 0U);
-  EXPECT_EQ(read("# nothing").diagnostics.count(), 0U);
+  for (const char* text : {"", "# nothing", "b 0 0 0 l 1 2 3"}) {
+    EXPECT_EQ(warning_of(text), "t.nff: no primitives");
+    EXPECT_EQ(error_of(text, true), "t.nff: no primitives");
+  }
+  EXPECT_EQ(warning_of(fill + "s 0 0 0 1"), "");
 }
 
 TEST(Nff, ErrorsNameTheirPlace) {

@@ -144,6 +144,7 @@ TEST(ObjErrors, WhatCanBeToleratedIsAWarningAndAnErrorWhenStrict) {
         {"vn 0 0 0\nf 1 2 3\n", "t.obj:4:1: the normal is 0", 1},
         {"v 1e30 0 0\nv 0 1e30 0\nf 1 2 3\nf 1 4 5\n", "t.obj:7:1: triangle too large", 1},
         {"f 1 2 3\nmtllib\n", "t.obj:5:1: 'mtllib' without a name", 1},
+        {"v 1e13 0 0\nv 0 1e13 0\nf 1 2 3\nf 1 4 5\n", "t.obj:7:1: triangle too large", 1},
         {"s x\nf 1 2 3\n", "t.obj:4:1: not a smoothing group: 'x'", 1},
         {"usemtl missing\nf 1 2 3\n", "t.obj:4:1: material 'missing' is not defined", 1},
         {"f 1 2 3\nfoo\n", "t.obj:5:1: unknown keyword 'foo'", 1},

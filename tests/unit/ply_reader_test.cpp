@@ -193,6 +193,10 @@ TEST(PlyReader, OddFacesAreWarnedAbout) {
   ASSERT_EQ(found.warnings.size(), 2U);
   EXPECT_EQ(found.warnings[0], "t.ply:15:8: face of 2 vertices skipped");
   EXPECT_EQ(found.warnings[1], "t.ply:16:6: triangle without area skipped");
+  const Read large = read(plain_header + "0 0 0\n1e13 0 0\n0 1e13 0\n0 0 1\n3 0 1 2\n");
+  ASSERT_EQ(large.warnings.size(), 2U);
+  EXPECT_EQ(large.warnings[0], "t.ply:14:6: triangle too large for single precision skipped");
+  EXPECT_EQ(large.warnings[1], "t.ply: no primitives");
   EXPECT_THROW(read(text, true), InputError);
 }
 

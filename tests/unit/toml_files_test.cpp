@@ -120,6 +120,25 @@ TEST(TomlSidecars, CompleteAnObjFile) {
   EXPECT_EQ(alone.materials[alone.triangles.material[0]].diffuse, Vec3(1, 0, 0));
 }
 
+TEST(TomlFiles, ScenesThatShowNothingAreWarnedAbout) {
+  TomlTexts texts;
+  LoadOptions strict;
+  strict.strict = true;
+  for (const char* text : {"", "background = 1\n", "[[prototype.ball.sphere]]\n"}) {
+    const auto lines = texts.read(text).warnings();
+    ASSERT_EQ(lines.size(), 1U) << text;
+    EXPECT_EQ(texts.without_folder(lines[0]), "t.toml: no primitives");
+    EXPECT_EQ(texts.error(text, strict), "t.toml: no primitives");
+  }
+  for (const char* text : {"[[plane]]", "[[disk]]", "[[prototype.a.sphere]]\n[[instance]]\nof = 'a'",
+                           "[[prototype.a.sphere]]\n[[sphere]]"})
+    EXPECT_EQ(texts.read(text).diagnostics.count(), 0U) << text;
+  texts.folder().write("house.obj", house);
+  texts.folder().write("house.mtl", "newmtl wall\n");
+  texts.folder().write("house.toml", "background = 1\n");
+  EXPECT_EQ(load_house(texts).diagnostics.count(), 0U); // the OBJ file has them
+}
+
 TEST(TomlSidecars, SayWhichMaterialsShowVertexColors) {
   TomlTexts texts;
   std::string colored = house;

@@ -193,7 +193,7 @@ TEST(TomlSettings, TexturesOfFilesAndOfNone) {
       "offset = [0.5, 0.25], clamp = true, gain = 0.5, base = 0.25, channel = 'green' }\n"
       "normal_texture = { file = 'white.pgm' }\nbump_scale = 2\n"
       "[material.b]\ndiffuse_texture = { checker = [1, [1, 0, 0]], plane = [[1, 0, 0], [0, 1, 0]] }\n"
-      "ambient_texture = { gradient = [0, 1] }\ndiffuse = 0.5\n");
+      "ambient_texture = { gradient = [0, 1] }\ndiffuse = 0.5\n[[sphere]]\n");
   EXPECT_EQ(loaded.diagnostics.count(), 0U);
   const SceneDesc& desc = loaded.desc;
   ASSERT_EQ(desc.textures.size(), 5U);
@@ -228,7 +228,7 @@ TEST(TomlSettings, TexturesThatCantBeUsed) {
   texts.folder().write("text.png", "no picture");
   const Loaded loaded =
       texts.read("[material.a]\ndiffuse_texture = 'none.png'\nspecular_texture = 'text.png'\n"
-                 "opacity_texture = '../up.png'\n");
+                 "opacity_texture = '../up.png'\n[[sphere]]\n");
   ASSERT_EQ(loaded.diagnostics.count(), 3U);
   EXPECT_EQ(texts.without_folder(loaded.warnings()[0]), "t.toml:2:19: texture 'none.png' does not exist");
   EXPECT_TRUE(contains(loaded.warnings()[1], "t.toml:3:20: texture 'text.png' is no PNG"));

@@ -188,5 +188,22 @@ TEST(TomlShapes, WhatMakesNoSenseIsRefused) {
             "t.toml:4:7: uvs: expected one for each of the 3 points, found 1");
 }
 
+TEST(TomlShapes, FacesThatNoRayMeetsAreSkipped) {
+  TomlTexts texts;
+  const std::string mesh =
+      "[[mesh]]\npoints = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1e13, 0, 0], [0, 1e13, 0]]\n";
+  const Loaded loaded = texts.read(mesh + "faces = [[0, 1, 2], [0, 0, 1], [0, 3, 4], [0, 1, 0, 1]]\n");
+  EXPECT_EQ(loaded.desc.triangles.size(), 1U);
+  const auto lines = loaded.warnings();
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(texts.without_folder(lines[0]), "t.toml:3:21: triangle without area skipped");
+  EXPECT_EQ(texts.without_folder(lines[1]), "t.toml:3:32: triangle too large for single precision skipped");
+  EXPECT_TRUE(test::contains(lines[2], "t.toml:3:43: the polygon crosses itself or has no area"));
+  EXPECT_NO_THROW(Scene{loaded.desc});
+  LoadOptions strict;
+  strict.strict = true;
+  EXPECT_EQ(texts.error(mesh + "faces = [[0, 0, 1]]", strict), "t.toml:3:10: triangle without area skipped");
+}
+
 } // namespace
 } // namespace fastrt
