@@ -197,10 +197,10 @@ TEST_P(MirrorHall, DepthEndsTheReflections) {
 }
 
 TEST_P(MirrorHall, SmallContributionsAreNotTraced) {
-  const Frame at_an_eighth = hall(100, 0.125F);
+  const Frame at_an_eighth = hall(64, 0.125F);
   for (const float value : at_an_eighth.rgb) EXPECT_EQ(value, 1.875F);
   EXPECT_EQ(at_an_eighth.rays.reflected, 64U * 3U);
-  const Frame above_an_eighth = hall(100, 0.1251F);
+  const Frame above_an_eighth = hall(64, 0.1251F);
   for (const float value : above_an_eighth.rgb) EXPECT_EQ(value, 1.75F);
 }
 
