@@ -135,8 +135,8 @@ void save_picture(const OutputFiles& files, const Frame& frame, std::span<const 
                   int threads) {
   const std::string format = format_of(files.picture);
   if (frame.aovs.empty()) objects = {};
-  save(files.picture, format == "exr" ? encode_layers(frame, objects, threads)
-                                      : encode_picture(frame, format, threads));
+  save(files.picture,
+       format == "exr" ? encode_layers(frame, objects, threads) : encode_picture(frame, format, threads));
 }
 
 } // namespace fastrt::cli

@@ -9,7 +9,6 @@
 #include <fastrt/render.hpp>
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 

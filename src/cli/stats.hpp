@@ -5,7 +5,6 @@
 #include <fastrt/tracer.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/film/srgb.hpp"
 
+#include "src/scene/srgb_curve.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -90,8 +92,7 @@ void to_srgb8(const float* linear, std::size_t count, unsigned char* codes) noex
 }
 
 float linear_of_srgb8(unsigned char code) noexcept {
-  const double value = code / 255.0;
-  return static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+  return static_cast<float>(linear_of_srgb(code / 255.0));
 }
 
 } // namespace fastrt

@@ -33,14 +33,6 @@ struct MarkedText {
   }
 }
 
-// Takes the number behind a mark as take_float does; goes to the mark behind it.
-inline bool take_long_number(MarkedText& p, float& value) {
-  const char* q = p.place() + 1;
-  if (!take_float(q, value)) return false;
-  while (p.place() < q) ++p.at;
-  return p.place() == q;
-}
-
 // Takes the number behind a space, which must end in a space or line end; goes there. False if there is none,
 // or if it needs parse_number.
 inline bool take_number(MarkedText& p, float& value) {

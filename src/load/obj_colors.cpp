@@ -2,7 +2,7 @@
 #include "src/load/obj_colors.hpp"
 
 #include "src/load/obj_fill.hpp"
-#include "src/load/srgb.hpp"
+#include "src/scene/srgb_curve.hpp"
 
 #include <algorithm>
 #include <string>

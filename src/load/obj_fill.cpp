@@ -3,7 +3,6 @@
 
 #include "src/load/marked_text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 

@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <exception>
 #include <limits>
 #include <mutex>

@@ -2,6 +2,7 @@
 #include "src/load/ply_vertices.hpp"
 
 #include "src/load/text.hpp"
+#include "src/scene/srgb_curve.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -46,8 +47,7 @@ constexpr SlotName slot_names[] = {{"x", x},
 
 // Integer colours are codes of the sRGB curve.
 float linear_of(float code, float most) {
-  const double share = static_cast<double>(code) / static_cast<double>(most);
-  return static_cast<float>(share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4));
+  return static_cast<float>(linear_of_srgb(static_cast<double>(code) / static_cast<double>(most)));
 }
 
 using VertexColumns = std::array<Column<float>, slot_count>;

@@ -2,11 +2,11 @@
 #include "src/load/texture_file.hpp"
 
 #include "src/load/source.hpp"
-#include "src/load/srgb.hpp"
 #include "src/load/text.hpp"
 #include "src/modules/open.hpp"
 #include "src/modules/pictures.hpp"
 #include "src/scene/printable.hpp"
+#include "src/scene/srgb_curve.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -16,7 +16,6 @@
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace fastrt {
 

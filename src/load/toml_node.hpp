@@ -2,7 +2,6 @@
 // A TOML file as a tree of values that know their place.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -6,7 +6,6 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
-#include <utility>
 
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0

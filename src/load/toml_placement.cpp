@@ -3,7 +3,6 @@
 #include "src/load/toml_transform.hpp"
 
 #include <string>
-#include <utility>
 
 namespace fastrt {
 namespace {

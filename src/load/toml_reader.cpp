@@ -10,6 +10,7 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 #include <utility>
 

@@ -4,7 +4,6 @@
 #include "src/load/toml_scene.hpp"
 #include "src/scene/shapes.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace fastrt {

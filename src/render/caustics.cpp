@@ -3,7 +3,6 @@
 
 #include "src/scene/photon_targets.hpp"
 
-
 namespace fastrt {
 namespace {
 

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images and their mip levels. Each level is the one below it, every pixel the mean of the area it covers.
+#include "src/scene/srgb_curve.hpp"
+
 #include <fastrt/error.hpp>
 #include <fastrt/texture.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace fastrt {
 
 namespace {
 
-double linear_of(double code) {
-  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-}
-
 std::vector<float> decoding(bool srgb) {
   std::vector<float> table(512);
   for (std::size_t code = 0; code < 256; ++code) {
     const double share = static_cast<double>(code) / 255.0;
-    table[code] = static_cast<float>(srgb ? linear_of(share) : share);
+    table[code] = static_cast<float>(srgb ? linear_of_srgb(share) : share);
     table[256 + code] = static_cast<float>(share);
   }
   return table;

@@ -7,7 +7,6 @@
 #include <fastrt/error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace fastrt {

@@ -7,7 +7,6 @@
 
 #include <fastrt/scene.hpp>
 
-
 namespace fastrt {
 
 // What the scene's own tree holds: the primitives that have a box (planes have none) and are in no prototype,
