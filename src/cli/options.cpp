@@ -87,7 +87,8 @@ private:
 
 void add_image_options(CLI::App& app, OptionAdder& add, Options& options, std::string& signature) {
   add.group("Image");
-  add.value("-o,--output", "FILE", "Where the picture goes [SCENE.png in this folder]; 'none': nowhere",
+  add.value("-o,--output", "FILE",
+            "Where the picture goes [SCENE.png in this folder]; 'none': nowhere; '-': stdout",
             [&](const std::string& name, const std::string& text) {
               if (text.empty()) throw UsageError(name + ": a file name is missing");
               options.output = text;

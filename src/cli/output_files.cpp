@@ -35,8 +35,9 @@ fs::path beside(const Options& options, const fs::path& output, const char* opti
   std::error_code error;
   const bool is_device = output.native().starts_with("/dev/") || fs::is_other(output, error);
   if (is_device)
-    throw UsageError(std::string(option) + ": nothing can go beside '" + output.string() +
-                     "'; give the picture a name of its own");
+    throw UsageError(std::string(option) + ": nothing can go beside " +
+                     (options.output == "-" ? "standard output" : "'" + output.string() + "'") +
+                     "; give the picture a name of its own");
   fs::path stem = output.empty() ? fs::path(options.scene).stem() : output.parent_path() / output.stem();
   if (stem.empty()) stem = "scene";
   stem += std::string("-") + name + ".png";
@@ -66,7 +67,7 @@ std::vector<unsigned char> encode_picture(const Frame& frame, const std::string&
 // Empty for nowhere.
 fs::path choose_picture(const Options& options) {
   if (options.output == "none") return {};
-  fs::path path = options.output;
+  fs::path path = options.output == "-" ? "/dev/stdout" : options.output;
   if (path.empty()) path = fs::path(options.scene).stem();
   if (options.output.empty()) path += path.empty() ? "scene.png" : ".png";
   refuse_inputs(options, path);

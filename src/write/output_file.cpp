@@ -34,6 +34,11 @@ struct Target {
   mode_t mode = 0;
 };
 
+// Links to open files, which name no place where a file could be put.
+bool is_open_file(const fs::path& path) {
+  return path.native().starts_with("/proc/") || path.native().starts_with("/dev/fd/");
+}
+
 Target resolve(const fs::path& path) {
   constexpr int most_links = 40;
   Target target{path};
@@ -43,9 +48,7 @@ Target resolve(const fs::path& path) {
       if (errno != ENOENT) fail(path, errno);
       return target; // may still be made, unless its folder is missing
     }
-    // The links in /proc to open files name no place where a file could be put.
-    if (target.path.native().starts_with("/proc/") && stat(target.path.c_str(), &info) != 0)
-      fail(path, errno);
+    if (is_open_file(target.path) && stat(target.path.c_str(), &info) != 0) fail(path, errno);
     if (!S_ISLNK(info.st_mode)) break;
     if (links == most_links) fail(path, ELOOP);
     std::error_code error;
@@ -55,7 +58,7 @@ Target resolve(const fs::path& path) {
   }
   if (S_ISDIR(info.st_mode)) fail(path, EISDIR);
   target.exists = true;
-  target.direct = !S_ISREG(info.st_mode) || target.path.native().starts_with("/proc/");
+  target.direct = !S_ISREG(info.st_mode) || is_open_file(target.path);
   target.mode = info.st_mode & 07777U;
   return target;
 }

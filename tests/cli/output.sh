@@ -88,6 +88,20 @@ picture_to_stdout() {
   "$fastrt" tiny.obj "${small[@]}" -o /dev/stdout 2>err | cat >b.png
   cmp a.png b.png
   grep -q 'Mrays/s' err || fail "no last line on stderr"
+  "$fastrt" tiny.obj "${small[@]}" -o - 2>err | cat >c.png
+  cmp a.png c.png
+  grep -q 'Mrays/s' err || fail "no last line on stderr"
+  expect_error 2 'standard output' tiny.obj -o - --aov id
+}
+
+picture_to_a_command() {
+  "$fastrt" tiny.obj "${small[@]}" -o a.png >/dev/null
+  "$fastrt" tiny.obj "${small[@]}" -q -o >(cat >b.png)
+  for _ in {1..50}; do # the command ends on its own
+    ! cmp -s a.png b.png || return 0
+    sleep 0.1
+  done
+  fail "the command got another picture"
 }
 
 unwritable() {
