@@ -14,7 +14,8 @@ inline constexpr std::uint32_t emission_side = 1U << emission_bits; // cells alo
 
 // What photons bring to a pixel is added up in whole numbers, so that their order does not matter: in units
 // of 2^-16 of what one photon may bring. More than film_most at once is cut off: a surface right before the
-// eye.
+// eye. A pixel's sum has room for 2^47 over the number of photons in all: a hundred thousand times white for
+// the most photons there may be.
 inline constexpr float film_scale = 65536.0F;
 inline constexpr float film_most = 1073741824.0F;
 

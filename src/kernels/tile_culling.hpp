@@ -159,7 +159,7 @@ FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles
     bits.store_unaligned(reinterpret_cast<std::int32_t*>(touched));
     return some & lanes;
   }
-  alignas(32) float x0[width], x1[width], y0[width], y1[width], near[width], end[width];
+  alignas(sizeof(F)) float x0[width], x1[width], y0[width], y1[width], near[width], end[width];
   r.x0.store_aligned(x0);
   r.x1.store_aligned(x1);
   r.y0.store_aligned(y0);

@@ -9,6 +9,8 @@ namespace fastrt {
 class Caustics {
 public:
   Caustics(const Tracer::Parts& parts, const RenderSettings& settings);
+  Caustics(const Caustics&) = delete; // its parts point to each other
+  Caustics& operator=(const Caustics&) = delete;
 
   // How many parts of the frame's progress the photons are.
   int parts() const noexcept { return static_cast<int>(chunks_.size()); }

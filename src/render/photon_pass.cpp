@@ -32,15 +32,13 @@ class PhotonMemory {
 public:
   explicit PhotonMemory(int max_depth)
       : scratch_(std::make_unique<PhotonScratch>()),
-        batches_(std::make_unique<PhotonBatch[]>(static_cast<std::size_t>(batch_count(max_depth)))) {
-    for (int i = 0; i < batch_count(max_depth); ++i)
+        batches_(std::make_unique<PhotonBatch[]>(static_cast<std::size_t>(photon_batches(max_depth)))) {
+    for (int i = 0; i < photon_batches(max_depth); ++i)
       scratch_->unused[scratch_->unused_count++] = &batches_[static_cast<std::size_t>(i)];
   }
   PhotonScratch& scratch() { return *scratch_; }
 
 private:
-  static int batch_count(int max_depth) { return 5 * (max_depth + 2) + 1; }
-
   std::unique_ptr<PhotonScratch> scratch_;
   std::unique_ptr<PhotonBatch[]> batches_;
 };

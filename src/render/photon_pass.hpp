@@ -17,6 +17,8 @@ namespace fastrt {
 class PhotonScene {
 public:
   explicit PhotonScene(const Tracer::Parts& parts);
+  PhotonScene(const PhotonScene&) = delete; // the view points into it
+  PhotonScene& operator=(const PhotonScene&) = delete;
   const SceneView& view() const noexcept { return view_; }
 
 private:

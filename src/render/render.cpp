@@ -82,6 +82,8 @@ TileJob make_job(const Tracer::Parts& parts, const CameraFrame& camera, const Re
   return job;
 }
 
+static_assert(most_bounces <= max_path_depth);
+
 // A thread's memory: the scratch and as many batches as the stack can hold at once (one waiting per depth,
 // and the batch at hand with its two children).
 class TileMemory {

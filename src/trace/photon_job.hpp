@@ -58,7 +58,7 @@ struct PhotonJob {
 };
 
 // Two open batches a depth, up to three full ones that wait, and the one at hand.
-inline constexpr int photon_batches = 5 * (max_path_depth + 2) + 1;
+FASTRT_INLINE constexpr int photon_batches(int max_depth) { return 5 * (max_depth + 2) + 1; }
 
 // Rays from one batch that go on, before they join those of other batches.
 struct PhotonScratch {
@@ -68,8 +68,8 @@ struct PhotonScratch {
   // Photons that wait for others, by depth: those that have not scattered yet, and those that have.
   PhotonBatch* open[2][max_path_depth + 2];
   // Batches to be followed, the next on top, and those not in use.
-  PhotonBatch* waiting[photon_batches];
-  PhotonBatch* unused[photon_batches];
+  PhotonBatch* waiting[photon_batches(max_path_depth)];
+  PhotonBatch* unused[photon_batches(max_path_depth)];
   int waiting_count, unused_count;
   std::uint32_t next; // photon to be sent out
 };

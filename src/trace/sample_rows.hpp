@@ -96,8 +96,8 @@ static void take_side_by_side(const TileJob& job, int first, int last, TileScrat
 // where there are few.
 static void take_active_places(const TileJob& job, TileScratch& scratch, TileRayCounts& counts) noexcept {
   const int fair = batch_size / scratch.place_count, most = fair > 16 ? fair : 16;
-  for (int first = job.first_sample; first < job.last_sample; first += most) {
-    const int last = job.last_sample - first < most ? job.last_sample : first + most;
+  for (int first = job.first_sample, last = 0; first < job.last_sample; first = last) {
+    last = job.last_sample - first < most ? job.last_sample : first + most;
     take_side_by_side(job, first, last, scratch, counts);
   }
 }

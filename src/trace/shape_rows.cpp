@@ -109,6 +109,7 @@ std::size_t ShapeRows::bytes() const noexcept {
 
 ShapeRows shape_rows(const Scene& scene, const std::vector<PrototypeTree>& prototypes) {
   ShapeRows rows;
+  check_row_count<InstanceRow>(scene.instance_count(), "instances");
   rows.instances.resize(scene.instance_count());
   for (std::size_t i = 0; i < rows.instances.size(); ++i)
     rows.instances[i] = instance_row(scene, i, prototypes);
