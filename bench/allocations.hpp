@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what operator new hands out. A program that links allocations.cpp has its operator new replaced.
+// Counts what operator new hands out and the memory of columns, which large ones take from the system itself.
+// A program that links allocations.cpp has its operator new replaced and its columns wrapped
+// (CMakeLists.txt).
 #pragma once
 
 #include <cstddef>

@@ -23,6 +23,13 @@ std::string cpu_name() {
   return "unknown";
 }
 
+// What is held at most cannot be less than what is left: then something is not counted.
+void check_peak(const char* who, std::size_t peak, std::size_t held) {
+  if (peak < held)
+    throw Error(std::string(who) + "'s build is said to take " + std::to_string(peak) +
+                " bytes at most, but " + std::to_string(held) + " are left");
+}
+
 // How long both take to build, in turn.
 BuildResult measure_build(const Model& model, int threads, const CompareOptions& options) {
   BuildResult result;
@@ -39,12 +46,14 @@ BuildResult measure_build(const Model& model, int threads, const CompareOptions&
     result.fastrt_peak_bytes = peak_allocated() - held;
     result.primitives = tracer.scene().primitive_count();
     result.fastrt_bytes = tracer.bvh_stats().bytes;
+    check_peak("fastrt", result.fastrt_peak_bytes, result.fastrt_bytes);
     fastrt_seconds.push_back(tracer.bvh_stats().build_seconds);
     const auto embree = build_embree_scene(tracer.scene(), false, threads);
     if (embree == nullptr) continue;
     embree_seconds.push_back(embree->build_seconds());
     result.embree_bytes = embree->bytes();
     result.embree_peak_bytes = embree->peak_bytes();
+    check_peak("Embree", result.embree_peak_bytes, result.embree_bytes);
     ratios.push_back(embree_seconds.back() / fastrt_seconds.back());
   }
   result.fastrt_seconds = spread_of(fastrt_seconds);
