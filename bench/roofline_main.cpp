@@ -132,7 +132,8 @@ Work count_work(Stepper& stepper, const Contender& contender, const RaySet& set,
         sample_of(set.batches[static_cast<std::size_t>((place - std::floor(place)) * batches)]);
     if (rays_in(sample) == 0) continue;
     worker->load(&sample, 1);
-    worker->trace(); // so that what is done once only is done
+    worker->trace();          // so that what is done once only is done
+    worker->load(&sample, 1); // tracing shortens Embree's rays
     const Work work = stepper.run([&] { worker->trace(); });
     sum.instructions += work.instructions;
     sum.operations += work.operations;
@@ -187,7 +188,9 @@ void print(const Limits& limits) {
 
 void cost_of_model(const std::string& argument, const Options& options, std::vector<Cost>& costs) {
   Model model = read_model(argument);
-  const Tracer tracer{Scene(std::move(model.desc))};
+  TracerSettings settings;
+  settings.isa = options.isa;
+  const Tracer tracer(Scene(std::move(model.desc)), settings);
   const View view = view_of(model, tracer.scene().bounds(), std::nullopt);
   const auto embree = build_embree_scene(tracer.scene(), false, 1);
   Stepper stepper({bytes_of(tracer.parts().nodes), bytes_of(tracer.parts().triangle_blocks),
