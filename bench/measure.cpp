@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <numeric>
 
 namespace fastrt::bench {
 namespace {
@@ -36,6 +37,18 @@ std::size_t rays_in_chunk(const RaySet& set, std::size_t chunk) {
   return rays;
 }
 
+// One of `step` chunks, spread over the whole set by the golden ratio: chunks at equal distances could all
+// lie at the same side of the picture.
+std::vector<std::size_t> traced_chunks(const RaySet& set, std::size_t step) {
+  const std::size_t count = chunk_count(set);
+  auto stride = static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(count)) + 1;
+  while (std::gcd(stride, count) != 1) ++stride; // so that no chunk comes twice
+  std::vector<std::size_t> chunks((count + step - 1) / step);
+  for (std::size_t i = 0; i < chunks.size(); ++i) chunks[i] = i * stride % count;
+  std::sort(chunks.begin(), chunks.end());
+  return chunks;
+}
+
 } // namespace
 
 double thread_seconds() {
@@ -53,7 +66,7 @@ Spread spread_of(std::vector<double> values) {
 }
 
 double rays_per_second(const Contender& contender, const RaySet& set, int threads, std::size_t step) {
-  const std::size_t chunks = (chunk_count(set) + step - 1) / step;
+  const std::vector<std::size_t> chunks = traced_chunks(set, step);
   const double cost = clock_cost();
   double rate = 0;
 #pragma omp parallel num_threads(threads) reduction(+ : rate)
@@ -62,8 +75,8 @@ double rays_per_second(const Contender& contender, const RaySet& set, int thread
     double busy = 0;
     std::size_t rays = 0;
 #pragma omp for schedule(dynamic)
-    for (std::size_t i = 0; i < chunks; ++i) {
-      const std::size_t chunk = i * step;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      const std::size_t chunk = chunks[i];
       worker->load(&set.batches[chunk * chunk_batches], batches_in_chunk(set, chunk));
       const double start = thread_seconds();
       worker->trace();

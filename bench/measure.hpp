@@ -23,7 +23,8 @@ struct RoundSettings {
   double seconds = 0.08; // that one contender's part of a round should take; larger sets are thinned out
 };
 
-// Every `step`-th chunk of a set is traced, so that slow sets do not take minutes.
+// One of `step` chunks of a set is traced, so that slow sets do not take minutes: the same ones by all,
+// spread over the whole picture.
 std::size_t step_for(const Contender& contender, const RaySet& set, const RoundSettings& settings);
 
 // Rays per second of tracing, of all threads together. Time is each thread's CPU time, so that being pushed
