@@ -54,7 +54,9 @@ void add_all(const std::string& scene, std::size_t set) {
   for (const Isa isa : available_isas())
     add(scene, set, isa_name(isa), [isa](const Course& c) { return fastrt_contender(c.tracer, isa); });
   if (embree_version().empty()) return;
-  for (const EmbreeMode mode : {EmbreeMode{1, false}, EmbreeMode{8, true}, EmbreeMode{16, true}})
+  for (const EmbreeMode mode :
+       {EmbreeMode{EmbreeCall::packet_1, false}, EmbreeMode{EmbreeCall::packet_8, true},
+        EmbreeMode{EmbreeCall::packet_16, true}})
     add(scene, set, "embree " + name_of(mode), [mode](const Course& c) { return c.embree->contender(mode); });
 }
 

@@ -12,12 +12,26 @@
 
 namespace fastrt::bench {
 
+// Packets of so many rays a call, and a batch a call: as single rays, pointers to them, columns, pointers to
+// these.
+enum class EmbreeCall {
+  packet_1,
+  packet_4,
+  packet_8,
+  packet_16,
+  stream_1m,
+  stream_1mp,
+  stream_nm,
+  stream_np
+};
+
 struct EmbreeMode {
-  int width;     // rays a call: 1, 4, 8, 16
+  EmbreeCall call;
   bool coherent; // the context's flag
 };
-std::vector<EmbreeMode> embree_modes();
-std::string name_of(const EmbreeMode& mode); // "16 coherent"
+std::vector<EmbreeMode> embree_modes();          // all
+std::vector<EmbreeMode> packet_modes(int width); // of packets of 4, 8 or 16 rays
+std::string name_of(const EmbreeMode& mode);     // "16 coherent", "1M"
 
 class EmbreeScene {
 public:
