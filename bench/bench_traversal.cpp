@@ -20,7 +20,7 @@ struct Course {
   explicit Course(SceneDesc desc)
       : tracer(Scene(std::move(desc))), sets(make_ray_sets(tracer, outside_view(tracer.scene().bounds()),
                                                            picture_size, picture_size, ray_set_names())),
-        embree(build_embree_scene(tracer.scene(), false, 1)) {}
+        embree(build_embree_scene(tracer.scene(), {})) {}
 };
 
 const Course& course_of(const std::string& scene) {

@@ -48,7 +48,7 @@ BuildResult measure_build(const Model& model, int threads, const CompareOptions&
     result.fastrt_bytes = tracer.bvh_stats().bytes;
     check_peak("fastrt", result.fastrt_peak_bytes, result.fastrt_bytes);
     fastrt_seconds.push_back(tracer.bvh_stats().build_seconds);
-    const auto embree = build_embree_scene(tracer.scene(), false, threads);
+    const auto embree = build_embree_scene(tracer.scene(), {.threads = threads, .isa = {}});
     if (embree == nullptr) continue;
     embree_seconds.push_back(embree->build_seconds());
     result.embree_bytes = embree->bytes();
@@ -146,8 +146,9 @@ void compare_model(const std::string& argument, const CompareOptions& options, R
   if (options.look_at) view.camera.look_at = *options.look_at;
   const std::vector<RaySet> sets = make_ray_sets(tracer, view, options.width, options.height, options.rays);
   const int threads = *std::max_element(options.threads.begin(), options.threads.end());
-  const EmbreePair embree{build_embree_scene(tracer.scene(), false, threads),
-                          build_embree_scene(tracer.scene(), true, threads)};
+  const EmbreePair embree{
+      build_embree_scene(tracer.scene(), {.threads = threads, .isa = {}}),
+      build_embree_scene(tracer.scene(), {.robust = true, .threads = threads, .isa = {}})};
   for (const RaySet& set : sets) {
     if (set.ray_count == 0) continue;
     for (const int count : options.threads) {

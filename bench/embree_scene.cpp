@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <type_traits>
 
 #include "bench/embree_workers.hpp"
 
@@ -68,26 +69,36 @@ void attach_spheres(RTCDevice device, RTCScene target, const Scene& scene) {
   rtcReleaseGeometry(geometry);
 }
 
+struct Release {
+  void operator()(RTCDevice device) const noexcept { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const noexcept { rtcReleaseScene(scene); }
+};
+using DeviceOwner = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
+using SceneOwner = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+
+DeviceOwner make_device(const EmbreeSettings& settings) {
+  std::string text = "threads=" + std::to_string(settings.threads);
+  if (settings.isa) text += std::string(",isa=") + isa_name(*settings.isa);
+  DeviceOwner device(rtcNewDevice(text.c_str()));
+  if (device == nullptr) throw Error("Embree offers no device for " + text);
+  return device;
+}
+
 class BuiltEmbreeScene final : public EmbreeScene {
 public:
-  BuiltEmbreeScene(const Scene& scene, bool robust, int threads) : triangle_count_(scene.triangle_count()) {
-    device_ = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
-    if (device_ == nullptr) throw Error("Embree offers no device");
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-    if (robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    if (scene.triangle_count() != 0) attach_triangles(device_, scene_, scene);
-    if (scene.sphere_count() != 0) attach_spheres(device_, scene_, scene);
-    rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory_);
+  BuiltEmbreeScene(const Scene& scene, const EmbreeSettings& settings)
+      : device_(make_device(settings)), scene_(rtcNewScene(device_.get())),
+        triangle_count_(scene.triangle_count()) {
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
+    if (settings.robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    if (scene.triangle_count() != 0) attach_triangles(device_.get(), scene_.get(), scene);
+    if (scene.sphere_count() != 0) attach_spheres(device_.get(), scene_.get(), scene);
+    rtcSetDeviceMemoryMonitorFunction(device_.get(), count_memory, &memory_);
     const auto start = std::chrono::steady_clock::now();
-    rtcCommitScene(scene_);
+    rtcCommitScene(scene_.get());
     build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     bytes_ = static_cast<std::size_t>(memory_.held.load());
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw Error("Embree could not build the scene");
-  }
-  ~BuiltEmbreeScene() override {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw Error("Embree could not build the scene");
   }
 
   Contender contender(const EmbreeMode& mode) const override {
@@ -100,14 +111,14 @@ public:
 
 private:
   std::unique_ptr<Worker> make_worker(const EmbreeMode& mode, Question question) const {
-    const EmbreeQuery query{scene_, mode.coherent, question, triangle_count_};
+    const EmbreeQuery query{scene_.get(), mode.coherent, question, triangle_count_};
     std::unique_ptr<Worker> worker = make_packet_worker(mode.call, query);
     return worker != nullptr ? std::move(worker) : make_stream_worker(mode.call, query);
   }
 
-  RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
-  Memory memory_;
+  Memory memory_; // the device reports to it to the end
+  DeviceOwner device_;
+  SceneOwner scene_;
   double build_seconds_ = 0;
   std::size_t bytes_ = 0;
   std::uint32_t triangle_count_;
@@ -133,14 +144,13 @@ std::string name_of(const EmbreeMode& mode) {
   return call_names[static_cast<std::size_t>(mode.call)] + std::string(mode.coherent ? " coherent" : "");
 }
 
-std::unique_ptr<EmbreeScene> build_embree_scene(const Scene& scene, bool robust, int threads) {
-  return std::make_unique<BuiltEmbreeScene>(scene, robust, threads);
+std::unique_ptr<EmbreeScene> build_embree_scene(const Scene& scene, const EmbreeSettings& settings) {
+  return std::make_unique<BuiltEmbreeScene>(scene, settings);
 }
 
 std::string embree_version() {
-  RTCDevice device = rtcNewDevice(nullptr);
-  const auto version = static_cast<long>(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION));
-  rtcReleaseDevice(device);
+  const DeviceOwner device = make_device({});
+  const auto version = static_cast<long>(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_VERSION));
   return std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
          std::to_string(version % 100);
 }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bench/tracers.hpp"
@@ -46,8 +47,14 @@ public:
   virtual std::size_t peak_bytes() const = 0; // held at most during the build
 };
 
-// Medium quality, threads for the build. Null without Embree.
-std::unique_ptr<EmbreeScene> build_embree_scene(const Scene& scene, bool robust, int threads);
+struct EmbreeSettings {
+  bool robust = false;
+  int threads = 1;        // of the build
+  std::optional<Isa> isa; // that Embree's code keeps to, not scalar; unset: all that runs here
+};
+
+// Medium quality, Embree's default. Null without Embree.
+std::unique_ptr<EmbreeScene> build_embree_scene(const Scene& scene, const EmbreeSettings& settings);
 
 // "3.13.5"; empty without Embree.
 std::string embree_version();

@@ -7,7 +7,7 @@ namespace fastrt::bench {
 std::vector<EmbreeMode> embree_modes() { return {}; }
 std::vector<EmbreeMode> packet_modes(int) { return {}; }
 std::string name_of(const EmbreeMode&) { return {}; }
-std::unique_ptr<EmbreeScene> build_embree_scene(const Scene&, bool, int) { return nullptr; }
+std::unique_ptr<EmbreeScene> build_embree_scene(const Scene&, const EmbreeSettings&) { return nullptr; }
 std::string embree_version() { return {}; }
 
 } // namespace fastrt::bench

@@ -192,7 +192,7 @@ void cost_of_model(const std::string& argument, const Options& options, std::vec
   settings.isa = options.isa;
   const Tracer tracer(Scene(std::move(model.desc)), settings);
   const View view = view_of(model, tracer.scene().bounds(), std::nullopt);
-  const auto embree = build_embree_scene(tracer.scene(), false, 1);
+  const auto embree = build_embree_scene(tracer.scene(), {});
   Stepper stepper({bytes_of(tracer.parts().nodes), bytes_of(tracer.parts().triangle_blocks),
                    bytes_of(tracer.parts().sphere_blocks)});
   for (const RaySet& set : make_ray_sets(tracer, view, 1024, 1024, ray_set_names())) {
