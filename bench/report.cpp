@@ -36,7 +36,8 @@ std::string json(const Disagreement& d) {
 std::string json(const FastrtRow& row) {
   return "{\"isa\": " + quoted(row.isa) + ", \"mrays\": " + json(row.mrays) +
          ", \"ratio\": " + json(row.ratio) + ", \"robust_ratio\": " + json(row.robust_ratio) +
-         ", \"scalar_ratio\": " + json(row.scalar_ratio) + '}';
+         ", \"scalar_ratio\": " + json(row.scalar_ratio) + ", \"peer\": {\"mode\": " + quoted(row.peer_mode) +
+         ", \"mrays\": " + json(row.peer) + ", \"ratio\": " + json(row.peer_ratio) + "}}";
 }
 
 template <class T, class ToText>
@@ -103,11 +104,12 @@ void print(const TraversalResult& r) {
   if (const Disagreement& d = r.with_embree; d.rays != 0)
     std::printf(", %.1f %% hit", 100.0 * static_cast<double>(d.hits) / static_cast<double>(d.rays));
   std::printf("\n");
-  std::printf("  %-22s %9s   %-19s %-19s %s\n", "", "Mrays/s", "/ Embree", "/ Embree robust", "/ scalar");
+  std::printf("  %-22s %9s   %-19s %-19s %-19s %s\n", "", "Mrays/s", "/ Embree", "/ Embree robust",
+              "/ Embree's ISA", "/ scalar");
   for (const FastrtRow& row : r.fastrt)
-    std::printf("  %-22s %9.2f   %-19s %-19s %s\n", ("fastrt " + row.isa).c_str(), row.mrays.median,
+    std::printf("  %-22s %9.2f   %-19s %-19s %-19s %s\n", ("fastrt " + row.isa).c_str(), row.mrays.median,
                 ratio_text(row.ratio).c_str(), ratio_text(row.robust_ratio).c_str(),
-                ratio_text(row.scalar_ratio).c_str());
+                ratio_text(row.peer_ratio).c_str(), ratio_text(row.scalar_ratio).c_str());
   if (r.best_mode.empty()) return;
   std::printf("  %-22s %9.2f\n", ("embree " + r.best_mode).c_str(), r.embree.median);
   std::printf("  %-22s %9.2f\n", ("robust " + r.best_robust_mode).c_str(), r.embree_robust.median);

@@ -16,6 +16,9 @@ struct FastrtRow {
   Spread ratio;        // to Embree's best mode, per round
   Spread robust_ratio; // to the best mode of Embree's robust scene
   Spread scalar_ratio; // to one ray at a time through the binary tree
+  // Embree kept to the ISA, with packets as wide as its registers: the faster mode, and the ratio to it.
+  std::string peer_mode;
+  Spread peer, peer_ratio;
 };
 
 struct TraversalResult {

@@ -4,8 +4,7 @@ charts into `pictures` under their names."""
 from charts import chart, short
 
 WIDEST = ("avx512", "avx2", "sse4.2")
-# The packets of Embree that are as wide as the registers of an instruction set.
-PACKETS = {"sse4.2": "4", "avx2": "8", "avx512": "16"}
+ISAS = ("sse4.2", "avx2", "avx512")
 
 
 def table(heads, rows):
@@ -52,9 +51,15 @@ def rays(compare, pictures):
             ("rays", "fastrt", "Embree", "Embree's mode", "ratio", "ratio to robust"), rows)
     svg = chart("Million rays a second, one thread", ("fastrt", f"Embree {compare['embree']}, its fastest mode"), panels)
     return ["## Rays", "",
-            "Tracing alone: the rays of one picture, the same for both, in one process and in turn. Embree's mode is the "
-            "fastest of all (1, 4, 8, 16 rays a call, with and without its flag for coherent rays), found anew for every "
-            "row. Times are CPU times of the thread. Mrays/s; ratios are medians over rounds (smallest-largest).", "",
+            "Tracing alone: the rays of one picture, the same for both, in one process and in turn; of slow sets a part, spread "
+            "over the picture. Both trees are of their library's default quality (Embree's: medium). Embree's mode is the "
+            "fastest of those tried anew for every row: packets of 1, 4, 8 and 16 rays, and batches of up to 256 as streams "
+            "(`rtcIntersect1M`, `1Mp`, `NM`, `Np`, or `rtcOccluded` of these), each with and without its flag for coherent rays. "
+            "Its calls run with denormals flushed to zero, as its manual recommends; fastrt's do not. Times are CPU times of the "
+            "thread. Mrays/s; ratios are medians over rounds (smallest-largest).", "",
+            "Where the closest hit is asked for (primary, mirror, refracted and random rays) the answers are not the same: fastrt "
+            "gives distance and primitive, and finds the place on it and the normal when it shades; Embree gives distance, "
+            "primitive, barycentric coordinates and normal.", "",
             *picture(pictures, "rays", "Million rays a second per model and kind of rays", svg), *lines]
 
 
@@ -62,15 +67,15 @@ def instruction_sets(compare):
     rows = []
     for t in (t for t in compare["traversals"] if t["threads"] == 1):
         cells = [t["model"], t["rays"]]
-        for isa, width in PACKETS.items():
+        for isa in ISAS:
             row = row_of(t, (isa,))
-            peer = max((v for k, v in t["embree_modes"].items() if k.split()[0] == width), default=0)
-            cells.append(f"{short(row['mrays']['median'])} ({row['mrays']['median'] / peer:.2f}x)"
-                         if row and peer else short(row["mrays"]["median"]) if row else "-")
+            ratio = row["peer"]["ratio"]["median"] if row else 0
+            cells.append((short(row["mrays"]["median"]) + (f" ({ratio:.2f}x)" if ratio else "")) if row else "-")
         rows.append(cells)
     return ["## Instruction sets", "",
-            "Mrays/s of one thread, and the ratio to the faster of Embree's two modes whose packets are as wide as the "
-            "instruction set's registers (4, 8 and 16 rays).", "",
+            "Mrays/s of one thread, and the ratio to Embree kept to the same instruction set (`isa=` of its device): to the "
+            "faster of its two modes whose packets are as wide as the registers (4, 8 and 16 rays). Each has the tree that it "
+            "builds for the instruction set, and all are measured in turn.", "",
             *table(("model", "rays", "SSE4.2", "AVX2", "AVX-512"), rows)]
 
 
@@ -142,8 +147,8 @@ def kernels(data):
     rows = {}
     for b in data["benchmarks"]:
         name, _, isa = b["name"].rpartition("/")
-        if b.get("run_type") != "aggregate" and "s/pair" in b and isa in PACKETS:
+        if b.get("run_type") != "aggregate" and "s/pair" in b and isa in ISAS:
             rows.setdefault(name, {})[isa] = f"{b['s/pair'] * 1e9:.2f}"
     return ["## Kernels", "", "Nanoseconds a ray and primitive (or a value, for `pow` and `exp`), one thread.", "",
             *table(("kernel", "SSE4.2", "AVX2", "AVX-512"),
-                   [(name, *(cells.get(isa, "-") for isa in PACKETS)) for name, cells in rows.items()])]
+                   [(name, *(cells.get(isa, "-") for isa in ISAS)) for name, cells in rows.items()])]
