@@ -137,7 +137,8 @@ bool has_operand(const Opcode& op) {
 int displacement_unit(const Opcode& op) {
   if (!op.evex) return 1;
   if (op.broadcast) return 4;
-  if (op.map == 1 && op.prefix >= 2) return op.prefix == 2 ? 4 : 8;
+  const bool moves_register = op.map == 1 && (op.code == 0x6F || op.code == 0x7F); // whatever the prefix
+  if (op.map == 1 && op.prefix >= 2 && !moves_register) return op.prefix == 2 ? 4 : 8;
   if (op.map == 2 && (op.code == 0x18 || op.code == 0x58)) return 4; // one float or integer to all lanes
   if (op.map == 2 && (op.code == 0x19 || op.code == 0x59)) return 8; // two
   const bool quarter = (op.map == 2 && (op.code == 0x1A || op.code == 0x5A)) ||

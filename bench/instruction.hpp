@@ -14,8 +14,8 @@ struct Instruction {
   std::int64_t displacement = 0;
 };
 
-// Addresses relative to the next instruction, gathers and prefetches are taken for no memory at all. `code`
-// must have 16 readable bytes.
+// Addresses relative to the next instruction, gathers and prefetches are taken for no memory at all: gathers
+// have no single operand, and has_operand drops them. `code` must have 16 readable bytes.
 Instruction decode(const std::uint8_t* code) noexcept;
 
 } // namespace fastrt::bench

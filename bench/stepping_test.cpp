@@ -51,6 +51,16 @@ TEST(Instruction, operands_in_memory) {
   EXPECT_FALSE(decoded({0x74, 0x05}).reads_memory);             // je
 }
 
+TEST(Instruction, short_displacements_count_in_what_is_moved) {
+  const auto displacement = [](std::initializer_list<int> bytes) { return decoded(bytes).displacement; };
+  // F3 and F2 say how wide the integers are, not that one alone is moved.
+  EXPECT_EQ(displacement({0x62, 0xF1, 0x7F, 0x48, 0x6F, 0x40, 0x01}), 64);  // vmovdqu8 zmm0, [rax + 64]
+  EXPECT_EQ(displacement({0x62, 0xF1, 0xFF, 0x28, 0x7F, 0x49, 0x01}), 32);  // vmovdqu16 [rcx + 32], ymm1
+  EXPECT_EQ(displacement({0x62, 0xF1, 0x7E, 0x48, 0x6F, 0x40, 0xFF}), -64); // vmovdqu32 zmm0, [rax - 64]
+  EXPECT_EQ(displacement({0x62, 0xE1, 0xFE, 0x08, 0x6F, 0x42, 0x01}), 16);  // vmovdqu64 xmm16, [rdx + 16]
+  EXPECT_EQ(displacement({0x62, 0xE1, 0x7E, 0x08, 0x10, 0x48, 0x01}), 4);   // vmovss xmm17, [rax + 4]
+}
+
 struct alignas(line_bytes) Lines {
   float values[64];
 };
