@@ -81,10 +81,15 @@ void add_povray(std::vector<PeerCommand>& commands, const RunSettings& settings)
 std::string povray_scene(const std::string& folder) { return in(folder, "scene.pov"); }
 std::string tachyon_scene(const std::string& folder) { return in(folder, "scene.dat"); }
 
-std::vector<PeerCommand> obj_commands(const RunSettings& settings, const std::string& model,
-                                      const Picture& picture) {
+std::string plain_obj(const std::string& folder) { return in(folder, "plain.obj"); }
+
+std::vector<PeerCommand> obj_commands(const RunSettings& settings, const Picture& picture) {
+  const std::string model = plain_obj(settings.folder);
+  const Vec3& travel = picture.light_travel;
+  const std::string light =
+      "dir:" + std::to_string(travel.x) + ',' + std::to_string(travel.y) + ',' + std::to_string(travel.z);
   std::vector<PeerCommand> commands;
-  add_fastrt(commands, settings, model, {});
+  add_fastrt(commands, settings, model, {"--light", light});
   add_pathtracer(commands, settings, model, picture);
   add_tachyon(commands, settings, tachyon_scene(settings.folder), {});
   add_povray(commands, settings);

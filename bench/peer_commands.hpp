@@ -22,13 +22,15 @@ struct RunSettings {
   int depth = 5;   // levels of rays of an NFF scene
 };
 
-// Where the commands expect the scene of another renderer: write it there before they run.
+// Where the commands expect the scene of another renderer, and the OBJ file: write them there before they
+// run.
 std::string povray_scene(const std::string& folder);
 std::string tachyon_scene(const std::string& folder);
+std::string plain_obj(const std::string& folder);
 
-// fastrt's command writing PNG comes first. An OBJ file: plain surfaces, one light; Embree's pathtracer, too.
-std::vector<PeerCommand> obj_commands(const RunSettings& settings, const std::string& model,
-                                      const Picture& picture);
+// fastrt's command writing PNG comes first. An OBJ file: plain surfaces, the picture's one light; Embree's
+// pathtracer, too.
+std::vector<PeerCommand> obj_commands(const RunSettings& settings, const Picture& picture);
 // An NFF file: as it says. Tachyon reads it itself.
 std::vector<PeerCommand> nff_commands(const RunSettings& settings, const std::string& model);
 

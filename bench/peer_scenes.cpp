@@ -3,12 +3,15 @@
 
 #include <fastrt/error.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <string_view>
 
 namespace fastrt::bench {
 namespace {
@@ -67,6 +70,18 @@ void write_povray(const Picture& picture, const std::filesystem::path& path) {
   for (std::size_t i = 0; i < t.size(); ++i) file.print(",\n<%u,%u,%u>", t.v0[i], t.v1[i], t.v2[i]);
   file.print(" }\n pigment { rgb 1 } finish { ambient 0.1 diffuse 0.8 }\n}\n");
   file.finish();
+}
+
+void write_plain_obj(const std::filesystem::path& model, const std::filesystem::path& path) {
+  std::ifstream in(model, std::ios::binary);
+  std::ofstream out(path, std::ios::binary);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+    const std::string_view statement = std::string_view(line).substr(begin);
+    if (!statement.starts_with("mtllib") && !statement.starts_with("usemtl")) out << line << '\n';
+  }
+  out.close();
+  if (!in.eof() || !out) throw OutputError("cannot copy " + model.string() + " to " + path.string());
 }
 
 // tachyon's camera is left-handed: the picture comes out mirrored, which costs it nothing.
