@@ -18,11 +18,12 @@ namespace {
 
 constexpr std::size_t pair_count = 1024; // with all columns in the second cache level at most
 
-// Pairs of a primitive near the origin and a ray towards it, so that about half of them meet.
+// Pairs of a primitive near the origin and a ray towards it. Of the triangles 19 % are met, of the spheres 65
+// %, of the boxes 70 %.
 struct Pairs {
   std::array<Column<float>, 9> primitive;
   std::array<Column<float>, 3> origin, dir;
-  Column<float> t_min{pair_count, 0.0F};
+  Column<float> t_min = Column<float>(pair_count, 0.0F); // braces would list two values
   std::array<Column<float>, 4> out{Column<float>(pair_count), Column<float>(pair_count),
                                    Column<float>(pair_count), Column<float>(pair_count)};
   std::vector<std::uint8_t> hit = std::vector<std::uint8_t>(pair_count);

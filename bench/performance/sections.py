@@ -151,6 +151,7 @@ def kernels(data):
         name, _, isa = b["name"].rpartition("/")
         if b.get("run_type") != "aggregate" and "s/pair" in b and isa in ISAS:
             rows.setdefault(name, {})[isa] = f"{b['s/pair'] * 1e9:.2f}"
-    return ["## Kernels", "", "Nanoseconds a ray and primitive (or a value, for `pow` and `exp`), one thread.", "",
+    return ["## Kernels", "", "Nanoseconds a ray and primitive (or a value, for `pow` and `exp`), one thread. Of the rays 19 % "
+            "meet their triangle, 65 % their sphere and 70 % their box.", "",
             *table(("kernel", "SSE4.2", "AVX2", "AVX-512"),
                    [(name, *(cells.get(isa, "-") for isa in ISAS)) for name, cells in rows.items()])]
