@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t pair_count = 1024; // with all columns in the second cache level at most
 
-// Pairs of a primitive near the origin and a ray towards it. Of the triangles 19 % are met, of the spheres 65
-// %, of the boxes 70 %.
+// Pairs of a primitive near the origin and a ray towards it. Rays meet 19 % of the triangles, 65 % of the
+// spheres and 70 % of the boxes.
 struct Pairs {
   std::array<Column<float>, 9> primitive;
   std::array<Column<float>, 3> origin, dir;

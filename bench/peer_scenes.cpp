@@ -3,15 +3,12 @@
 
 #include <fastrt/error.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <string>
-#include <string_view>
 
 namespace fastrt::bench {
 namespace {
@@ -72,16 +69,14 @@ void write_povray(const Picture& picture, const std::filesystem::path& path) {
   file.finish();
 }
 
-void write_plain_obj(const std::filesystem::path& model, const std::filesystem::path& path) {
-  std::ifstream in(model, std::ios::binary);
-  std::ofstream out(path, std::ios::binary);
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
-    const std::string_view statement = std::string_view(line).substr(begin);
-    if (!statement.starts_with("mtllib") && !statement.starts_with("usemtl")) out << line << '\n';
-  }
-  out.close();
-  if (!in.eof() || !out) throw OutputError("cannot copy " + model.string() + " to " + path.string());
+void write_plain_obj(const SceneDesc& scene, const std::filesystem::path& path) {
+  TextFile file(path);
+  for (std::size_t i = 0; i < scene.positions.size(); ++i)
+    print_vector(file, "v %.9g %.9g %.9g\n", scene.positions[i]);
+  const TriangleColumns& t = scene.triangles;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    file.print("f %u %u %u\n", t.v0[i] + 1, t.v1[i] + 1, t.v2[i] + 1);
+  file.finish();
 }
 
 // tachyon's camera is left-handed: the picture comes out mirrored, which costs it nothing.

@@ -20,7 +20,7 @@ struct Picture {
 // Throw OutputError.
 void write_povray(const Picture& picture, const std::filesystem::path& path);
 void write_tachyon(const Picture& picture, const std::filesystem::path& path);
-// An OBJ file without its materials, for those who read OBJ files themselves.
-void write_plain_obj(const std::filesystem::path& model, const std::filesystem::path& path);
+// For those who read OBJ files: no materials, normals or groups, of which some readers lose triangles.
+void write_plain_obj(const SceneDesc& scene, const std::filesystem::path& path);
 
 } // namespace fastrt::bench

@@ -181,13 +181,13 @@ void run_commands(const Options& options, const std::string& model, const WorkFo
 }
 
 void run_obj(const Options& options, const std::string& model, std::vector<std::string>& json) {
-  const WorkFolder folder(options.keep);
-  write_plain_obj(model, plain_obj(folder.path()));
   Diagnostics diagnostics;
-  SceneDesc desc = load_scene(plain_obj(folder.path()), {}, diagnostics);
+  SceneDesc desc = load_scene(model, {}, diagnostics);
   const Camera camera = frame_scene(bounds_of(desc), 40.0F, 1.0F);
   add_default_lights(desc, bounds_of(desc), camera);
   const Picture picture{desc, camera, desc.lights[0].direction, options.size};
+  const WorkFolder folder(options.keep);
+  write_plain_obj(desc, plain_obj(folder.path()));
   write_povray(picture, povray_scene(folder.path()));
   write_tachyon(picture, tachyon_scene(folder.path()));
   const auto commands = [&](const RunSettings& settings) { return obj_commands(settings, picture); };

@@ -135,9 +135,8 @@ def whole_runs(runs, pictures):
     svg = chart("Whole runs: seconds from start to picture", ("seconds",), panels)
     return ["## Whole runs", "",
             "From the start of the program to the finished picture: read, build, render, write; 1024 x 1024 pixels, one "
-            "sample. OBJ files: for all the same one light, shadows, and plain grey surfaces: fastrt and Embree's `pathtracer` read a "
-            "copy of the file without its materials, the others get its triangles in their own words, without the normals that "
-            "it may have. `pathtracer` traces paths of length 1. NFF files (the "
+            "sample. OBJ files: for all the same triangles, one light, shadows, and plain grey surfaces: fastrt and Embree's `pathtracer` "
+            "read them from an OBJ file without materials and normals, the others in their own words. `pathtracer` traces paths of length 1. NFF files (the "
             "Standard Procedural Databases): their own lights, shadows, mirrors and refraction, five levels; POV-Ray gets them "
             "in its own words, Tachyon reads them itself, though not all of what they say (no cones, no refraction; its picture of gears is blank). The others "
             "write PPM. The last column is the time divided by that of fastrt writing PNG.", "",
