@@ -92,6 +92,34 @@ TEST(TextureFile, BrokenFilesAreRefused) {
   }
 }
 
+// Kinds that OpenImageIO would read or write out of bounds for, and a file of 79 bytes that asks for a
+// gigabyte.
+TEST(TextureFile, WhatOpenImageIOStumblesOverIsNotGivenToIt) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* name, const std::string& bytes) {
+    const TextureFile file = read_texture(folder.write(name, bytes), TextureCode::color);
+    EXPECT_EQ(file.image, nullptr) << name;
+    EXPECT_NE(file.fault.find("can't be read"), std::string::npos) << name << ": " << file.fault;
+  };
+  const auto bmp = [](unsigned char header_size, unsigned char depth, unsigned char packing) {
+    std::string bytes(14 + 128, '\0');
+    bytes[0] = 'B', bytes[1] = 'M', bytes[10] = 14 + 108;
+    bytes[14] = static_cast<char>(header_size);
+    bytes[18] = bytes[22] = bytes[26] = 1; // a pixel
+    bytes[28] = static_cast<char>(depth);
+    bytes[30] = static_cast<char>(packing);
+    return bytes;
+  };
+  EXPECT_NE(read_texture(folder.write("good.bmp", bmp(40, 24, 0)), TextureCode::color).image, nullptr);
+  refused("packed.bmp", bmp(40, 24, 1));
+  refused("halves.bmp", bmp(40, 8, 2));
+  refused("header.bmp", bmp(64, 24, 0));
+  refused("depth.bmp", bmp(40, 5, 0));
+  refused("short.bmp", bmp(40, 24, 0).substr(0, 50));
+  refused("palette.tga", std::string("\0\1\1\0\0\1\0\x18\0\0\0\0\1\0\1\0\x08\x20\xFF\xFF\xFF\x80", 22));
+  refused("large.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\xFF\x3F\xFF\x3F\x18\x20", 18));
+}
+
 // What is there is used, and the rest is said to be missing; nothing ends the program.
 TEST(TextureFile, TruncationAnywhereDoesNoHarm) {
   const TemporaryFolder folder;

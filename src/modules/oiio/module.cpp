@@ -69,6 +69,10 @@ std::string fault_of(const OIIO::ImageSpec& spec, bool is_float, const PictureFi
     return size + " are too many";
   if (spec.deep) return "deep pictures are not supported";
   if (spec.depth > 1) return "volumes are not supported";
+  // OpenImageIO makes room for three colours and lets libtiff write four.
+  constexpr int cmyk = 5;
+  if (spec.tile_width != 0 && spec.get_int_attribute("tiff:PhotometricInterpretation") == cmyk)
+    return "CMYK colours in tiles are not supported";
   if (spec.nchannels < 1 || spec.nchannels > 64)
     return std::to_string(spec.nchannels) + " channels are not supported";
   return {};
@@ -109,6 +113,7 @@ int decode(const PictureFile& file, DecodedPicture& texture) {
   OIIO::attribute("debug", 0);
   OIIO::attribute("threads", 1); // the caller reads several files at once
   OIIO::attribute("exr_threads", 1);
+  OIIO::geterror(); // forgets what this thread's last file had to say
   const std::string format = file.format;
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) return fail(texture, OIIO::geterror());
