@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -116,6 +117,7 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
     DecodedPicture read{};
     const std::string why_not = decode(file, read);
     const std::unique_ptr<void, Free> rgba(read.rgba);
+    if (why_not == out_of_memory) throw std::bad_alloc();
     if (!why_not.empty()) return {nullptr, "can't be read: " + printable(why_not)};
     if (read.is_damaged != 0 && is_black(read)) return {nullptr, "can't be read: " + printable(read.error)};
     const std::string fault = read.is_damaged != 0 ? "is damaged: " + printable(read.error) : "";

@@ -12,6 +12,9 @@ namespace fastrt {
 inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
 inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_4"; // the number changes with the types
 
+// The error of a module that has not got the memory it asked for.
+inline constexpr const char* out_of_memory = "out of memory";
+
 struct PictureToEncode {
   const char* format; // an extension without the dot
   const void* pixels; // 3 * width * height values, rows from the top: of JPEG bytes, otherwise floats

@@ -11,6 +11,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <string_view>
 
 namespace fastrt {
@@ -40,6 +41,7 @@ Bytes encode(int (*encoder)(const Request*, EncodedPicture*), const Request& req
   EncodedPicture result{};
   const bool done = encoder(&request, &result) != 0;
   const std::unique_ptr<unsigned char, Free> bytes(result.bytes);
+  if (!done && std::string_view(result.error) == out_of_memory) throw std::bad_alloc();
   if (!done)
     throw OutputError(std::string("cannot encode the picture as ") + format + ": " + printable(result.error));
   return {bytes.get(), bytes.get() + result.count};

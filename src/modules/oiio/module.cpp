@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 
 namespace {
@@ -53,7 +54,7 @@ int encode(const PictureToEncode& picture, EncodedPicture& result) {
   const std::vector<unsigned char>& bytes = memory.buffer();
   if (bytes.empty()) return fail(result, "nothing was written");
   result.bytes = static_cast<unsigned char*>(std::malloc(bytes.size()));
-  if (result.bytes == nullptr) return fail(result, "out of memory");
+  if (result.bytes == nullptr) return fail(result, fastrt::out_of_memory);
   std::memcpy(result.bytes, bytes.data(), bytes.size());
   result.count = bytes.size();
   return 1;
@@ -101,7 +102,7 @@ int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, DecodedP
     fail(texture, input.geterror());
   }
   T* const rgba = static_cast<T*>(std::malloc(4 * pixels * sizeof(T)));
-  if (rgba == nullptr) return fail(texture, "out of memory");
+  if (rgba == nullptr) return fail(texture, fastrt::out_of_memory);
   spread_channels(read.get(), channels, pixels, opaque, rgba);
   texture.rgba = rgba;
   texture.width = spec.width;
@@ -136,6 +137,8 @@ extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_4(const
                                                                            EncodedPicture* result) {
   try {
     return encode(*picture, *result);
+  } catch (const std::bad_alloc&) {
+    return fail(*result, fastrt::out_of_memory);
   } catch (const std::exception& error) {
     return fail(*result, error.what());
   } catch (...) {
@@ -147,6 +150,8 @@ extern "C" __attribute__((visibility("default"))) int fastrt_oiio_decode_1(const
                                                                            DecodedPicture* texture) {
   try {
     return decode(*file, *texture);
+  } catch (const std::bad_alloc&) {
+    return fail(*texture, fastrt::out_of_memory);
   } catch (const std::exception& error) {
     return fail(*texture, error.what());
   } catch (...) {

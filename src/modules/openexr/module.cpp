@@ -109,7 +109,7 @@ bool encode(const LayersToEncode& layers, Bytes& bytes) {
 int give(const Bytes& bytes, EncodedPicture& result) {
   result.bytes = static_cast<unsigned char*>(std::malloc(bytes.size()));
   if (result.bytes == nullptr) {
-    put_error(result, "out of memory");
+    put_error(result, fastrt::out_of_memory);
     return 0;
   }
   std::memcpy(result.bytes, bytes.data(), bytes.size());
@@ -130,7 +130,7 @@ extern "C" __attribute__((visibility("default"))) int fastrt_openexr_encode_2(co
     else if (result->error[0] == '\0')
       put_error(*result, "OpenEXR gives no reason");
   } catch (const std::exception&) {
-    put_error(*result, "out of memory");
+    put_error(*result, fastrt::out_of_memory);
   }
   current = nullptr;
   return given;

@@ -79,7 +79,7 @@ bool read(const PictureFile& file, PngReader& reader) {
   const std::size_t row = channels * code_size * reader.width;
   if (png_get_rowbytes(png, reader.info) != row) png_error(png, "its rows have an unexpected size");
   reader.rgba = static_cast<unsigned char*>(std::calloc(reader.width * reader.height, value_size * channels));
-  if (reader.rgba == nullptr) png_error(png, "out of memory");
+  if (reader.rgba == nullptr) png_error(png, out_of_memory);
   for (int pass = 0; pass < passes; ++pass)
     for (std::size_t y = 0; y < reader.height; ++y) png_read_row(png, codes_of(reader) + y * row, nullptr);
   png_read_end(png, nullptr);
@@ -104,7 +104,7 @@ bool decode_png(const PictureFile& file, DecodedPicture& picture) noexcept {
   reader.bytes = {file.bytes, file.count};
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, give_up, say_nothing);
   if (reader.png != nullptr) reader.info = png_create_info_struct(reader.png);
-  if (reader.info == nullptr) std::strcpy(reader.why, "out of memory");
+  if (reader.info == nullptr) std::strcpy(reader.why, out_of_memory);
   const bool whole = reader.info != nullptr && read(file, reader);
   png_destroy_read_struct(&reader.png, &reader.info, nullptr);
   std::memcpy(picture.error, reader.why, sizeof reader.why);
