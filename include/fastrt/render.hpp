@@ -73,9 +73,9 @@ struct RayCounts {
   }
 };
 
-// What it took to find the hits of some rays. A node's eight boxes count eight for a ray on its own and for
-// up to 256 rays that meet them together; primitives count once for each ray that was held against one (where
-// that happens to four or eight at once, for all of these).
+// What it took to find the hits of the rays that RayCounts counts, photons included. A node's eight boxes
+// count eight for a ray on its own and for up to 256 rays that meet them together; primitives count once for
+// each ray that was held against one (where that happens to four or eight at once, for all of these).
 struct TestCounts {
   std::uint64_t boxes = 0, primitives = 0;
 };

@@ -49,11 +49,10 @@ Frame render_forward(const Tracer& tracer, const Camera& camera, const RenderSet
   pass.job.film = film.sums();
   pass.job.eye = view_of(eye, part_of(settings));
   media_around(parts, camera_frame, settings.width, settings.height, pass.job.eye.media);
-  FrameProgress progress(settings, static_cast<int>(chunks.size()));
+  FrameProgress progress(settings, static_cast<int>(chunks.size()) + 1);
+  progress.part_done(frame.rays, frame.tests); // the centres
   trace_photons(pass, progress);
-  const RayCounts centers = frame.rays;
   progress.finish(frame);
-  frame.rays += centers;
   film.develop(plan.count, frame);
   return frame;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/render/photon_pass.hpp"
 
+#include "src/render/part_done.hpp"
 #include "src/scene/threads.hpp"
 
 #include <atomic>
@@ -72,7 +73,7 @@ void trace_chunks(const PhotonPass& pass, std::atomic<std::size_t>& next_chunk, 
       going_on = pass.kernels->trace_photons(job, scratch, rays);
       take_stored(scratch.store, chunk.row, photons);
     }
-    progress.part_done({rays.primary, rays.shadow, rays.reflected, rays.refracted});
+    part_done(rays, progress);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "src/film/frame.hpp"
 #include "src/render/caustics.hpp"
 #include "src/render/forward.hpp"
+#include "src/render/part_done.hpp"
 #include "src/render/srgb8_tile.hpp"
 #include "src/scene/threads.hpp"
 #include "src/trace/point_media.hpp"
@@ -102,12 +103,6 @@ private:
   std::vector<PathBatch> batches_;
 };
 
-RayCounts to_counts(const TileRayCounts& rays) {
-  return {rays.primary, rays.shadow, rays.reflected, rays.refracted};
-}
-
-TestCounts to_counts(const TileTestCounts& tests) { return {tests.boxes, tests.primitives}; }
-
 int tiles_along(int pixels) { return (pixels + tile_side - 1) / tile_side; }
 
 int tile_count(const TileJob& job) {
@@ -135,8 +130,7 @@ void render_tiles(const Tracer::Parts& parts, const TileJob& frame_job, unsigned
     const TileJob job = job_of_tile(frame_job, tile);
     parts.kernels->render_tile(codes == nullptr ? job : pixels.alone(job), memory.scratch(), rays);
     if (codes != nullptr) pixels.put(job, codes);
-    progress.part_done(to_counts(rays), {to_counts(rays.primary_tests), to_counts(rays.shadow_tests),
-                                         to_counts(rays.secondary_tests)});
+    part_done(rays, progress);
   }
 }
 

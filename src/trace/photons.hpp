@@ -96,6 +96,7 @@ static void follow_photons(const PhotonJob& job, PhotonBatch& rays, PhotonScratc
     counts.shadow += connect_to_eye(job, rays, arrival, scratch.tile);
   else
     store_photons(job, rays, scratch.tile.surface, arrival, scratch.store);
+  take_tests(rays.depth, scratch.tile, counts);
   if (rays.depth < job.max_depth) follow_further(job, rays, arrival, scratch, counts);
 }
 

@@ -141,6 +141,12 @@ FASTRT_INLINE void take_tests(HitBatch& hits, TileTestCounts& counts) {
   hits.boxes = hits.primitives = 0;
 }
 
+// Those of a batch of some depth and of its shadow rays.
+FASTRT_INLINE void take_tests(int depth, TileScratch& scratch, TileRayCounts& counts) {
+  take_tests(scratch.hits, depth == 0 ? counts.primary_tests : counts.secondary_tests);
+  take_tests(scratch.shadow_hits, counts.shadow_tests);
+}
+
 // One batch: its light, and its children onto the stack.
 static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratch,
                         TileRayCounts& counts) noexcept {
@@ -149,8 +155,7 @@ static void trace_paths(const TileJob& job, PathBatch& rays, TileScratch& scratc
   see_surfaces(job, rays, scratch);
   counts.shadow += gather_light(job, rays, scratch);
   if (job.caustics != nullptr) gather_caustics(job, rays, scratch);
-  take_tests(scratch.hits, rays.depth == 0 ? counts.primary_tests : counts.secondary_tests);
-  take_tests(scratch.shadow_hits, counts.shadow_tests);
+  take_tests(rays.depth, scratch, counts);
   if (scratch.recording) record_batch(job, rays, scratch);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);

@@ -25,14 +25,16 @@ TEST(Culling, OffMakesTheSamePictures) {
 
 // A ball of many triangles on a floor, all lit.
 Shot ball_on_a_floor() {
-  Random random(1);
   SceneBuilder builder;
   Material material;
   material.mirror = Vec3(0.5F);
   const std::uint32_t shiny = builder.add_material(material);
   add(builder, icosphere(2), shiny);
   add(builder, grid(8, {-4, -1, -4}, {0, 0, 8}, {8, 0, 0}), shiny);
-  builder.add_light(any_light(random));
+  Light light;
+  light.kind = LightKind::point;
+  light.position = {2, 5, 3};
+  builder.add_light(light);
   Shot shot{"ball", builder.build(), looking({0, 3, 5}, {0, 0, 0}), small_settings(24, 24)};
   shot.settings.max_depth = 2;
   return shot;
@@ -65,6 +67,30 @@ TEST(Culling, IsCounted) {
     EXPECT_GE(per_ray(few.tests.primary, few.rays.primary), 0.5);
     EXPECT_LT(few.tests.primary.boxes, all.tests.primary.boxes);
   }
+}
+
+// Without bounding volumes each ray that is counted meets every primitive, those of the centres that the
+// forward integrator looks at and those of photons too.
+TEST(Culling, IsCountedForPhotons) {
+  Shot shot = ball_on_a_floor();
+  const auto primitives = static_cast<double>(shot.scene.primitive_count());
+  for (const Integrator integrator : {Integrator::forward, Integrator::whitted})
+    for (const Isa isa : simd_isas()) {
+      SCOPED_TRACE(isa_word(isa) + (integrator == Integrator::forward ? ", forward" : ", caustics"));
+      shot.settings.integrator = integrator;
+      shot.settings.photons = 800;
+      shot.settings.caustic_photons = integrator == Integrator::whitted ? 800 : 0;
+      const Frame frame = rendered(shot, isa, false);
+      const std::uint64_t secondary = frame.rays.reflected + frame.rays.refracted;
+      ASSERT_GT(frame.rays.primary, 24U * 24U);
+      ASSERT_GT(secondary, 0U);
+      for (const double met :
+           {per_ray(frame.tests.primary, frame.rays.primary), per_ray(frame.tests.secondary, secondary)}) {
+        EXPECT_GE(met, primitives);
+        EXPECT_LE(met, 1.5 * primitives);
+      }
+      EXPECT_GT(frame.tests.shadow.primitives, 0U);
+    }
 }
 
 } // namespace
