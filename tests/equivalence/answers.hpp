@@ -58,8 +58,9 @@ class KernelQuery {
 public:
   KernelQuery() : rays_(std::make_unique<RayBatch>()), hits_(std::make_unique<HitBatch>()) {}
 
-  std::vector<Hit> closest(const KernelTable& kernels, const SceneView& view, std::span<const Ray> rays,
-                           BatchShape shape) {
+  std::vector<Hit> closest(const Tracer& tracer, std::span<const Ray> rays, BatchShape shape) {
+    const KernelTable& kernels = *tracer.parts().kernels;
+    const SceneView& view = tracer.parts().view;
     const std::int32_t first_instance = view.geometry.shapes.first_instance;
     fill_batch(rays, shape, first_instance, *rays_);
     kernels.closest_hits(view.geometry, *rays_, *hits_);
@@ -73,10 +74,10 @@ public:
     }
     return found;
   }
-  std::vector<bool> any(const KernelTable& kernels, const SceneView& view, std::span<const Ray> rays,
-                        BatchShape shape) {
-    fill_batch(rays, shape, view.geometry.shapes.first_instance, *rays_);
-    kernels.any_hits(view.geometry, *rays_, *hits_);
+  std::vector<bool> any(const Tracer& tracer, std::span<const Ray> rays, BatchShape shape) {
+    const GeometryView& view = tracer.parts().view.geometry;
+    fill_batch(rays, shape, view.shapes.first_instance, *rays_);
+    tracer.parts().kernels->any_hits(view, *rays_, *hits_);
     std::vector<bool> found(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) found[i] = hits_->primitive[i] >= 0;
     return found;
@@ -94,6 +95,13 @@ inline TracerSettings with_isa(Isa isa) {
   settings.isa = isa;
   settings.threads = 1;
   return settings;
+}
+
+// One for each ISA with kernels, so that these go through the tree that is made for them.
+inline std::vector<Tracer> simd_tracers(const Scene& scene) {
+  std::vector<Tracer> tracers;
+  for (const Isa isa : simd_isas()) tracers.emplace_back(scene, with_isa(isa));
+  return tracers;
 }
 
 inline std::string words(const Ray& ray, const Hit& expected, const Hit& found) {

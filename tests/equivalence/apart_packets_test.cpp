@@ -22,21 +22,22 @@ TEST(ApartPackets, FindWhatTheScalarTreeFinds) {
   KernelQuery query;
   std::size_t rays = 0, hits = 0;
   for (const float radius : {0.0005F, 0.001F, 0.002F}) {
-    const Tracer tracer(cloud(radius, random), with_isa(Isa::sse42));
-    const ScalarBvh bvh(tracer.scene(), 1);
+    const Scene scene = cloud(radius, random);
+    const std::vector<Tracer> tracers = simd_tracers(scene);
+    const ScalarBvh bvh(scene, {1});
     for (int i = 0; i < effort(20); ++i) {
       RayRun run(batch_size);
       for (Ray& ray : run) ray = aimed(2.0F * random.in_cube(), random.in_cube(), random);
       const std::vector<Hit> answers = answers_of(bvh, run);
       rays += run.size();
       for (const Hit& answer : answers) hits += answer.found() ? 1U : 0U;
-      for (const Isa isa : simd_isas()) {
-        const SceneView& view = tracer.parts().view;
-        const std::vector<Hit> closest = query.closest(kernels_of(isa), view, run, BatchShape::coherent);
-        const std::vector<bool> any = query.any(kernels_of(isa), view, run, BatchShape::coherent);
+      for (const Tracer& tracer : tracers) {
+        const std::vector<Hit> closest = query.closest(tracer, run, BatchShape::coherent);
+        const std::vector<bool> any = query.any(tracer, run, BatchShape::coherent);
         for (std::size_t k = 0; k < run.size(); ++k)
           ASSERT_TRUE(same(closest[k], answers[k]) && any[k] == answers[k].found())
-              << isa_word(isa) << ", any " << any[k] << ": " << words(run[k], answers[k], closest[k]);
+              << isa_word(tracer.isa()) << ", any " << any[k] << ": "
+              << words(run[k], answers[k], closest[k]);
       }
     }
   }

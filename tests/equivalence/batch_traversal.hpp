@@ -19,7 +19,7 @@ struct Tally {
 
 class BatchTraversal : public testing::TestWithParam<NamedScene> {
 protected:
-  BatchTraversal() : tracer_(GetParam().scene, with_isa(Isa::sse42)) {}
+  BatchTraversal() : tracers_(simd_tracers(GetParam().scene)) {}
 
   const Scene& scene() const { return GetParam().scene; }
 
@@ -29,20 +29,21 @@ protected:
     const std::vector<Hit> answers = answers_of(reference::BruteForce(scene()), rays);
     tally_.rays += count;
     for (const Hit& answer : answers) tally_.hits += answer.found() ? 1U : 0U;
-    for (const Isa isa : simd_isas())
-      for (const BatchShape shape : shapes) expect_same(rays, answers, isa, shape);
+    for (const Tracer& tracer : tracers_)
+      for (const BatchShape shape : shapes) expect_same(rays, answers, tracer, shape);
   }
 
-  void expect_same(std::span<const Ray> rays, const std::vector<Hit>& answers, Isa isa, BatchShape shape) {
+  void expect_same(std::span<const Ray> rays, const std::vector<Hit>& answers, const Tracer& tracer,
+                   BatchShape shape) {
     if (failures_ > 5) return;
-    const KernelTable& kernels = kernels_of(isa);
-    const std::vector<Hit> closest = query_.closest(kernels, tracer_.parts().view, rays, shape);
-    const std::vector<bool> any = query_.any(kernels, tracer_.parts().view, rays, shape);
+    const std::vector<Hit> closest = query_.closest(tracer, rays, shape);
+    const std::vector<bool> any = query_.any(tracer, rays, shape);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (same(closest[i], answers[i]) && any[i] == answers[i].found()) continue;
       ++failures_;
-      ADD_FAILURE() << isa_word(isa) << ", shape " << static_cast<int>(shape) << ", row " << i << " of "
-                    << rays.size() << ", any " << any[i] << ": " << words(rays[i], answers[i], closest[i]);
+      ADD_FAILURE() << isa_word(tracer.isa()) << ", shape " << static_cast<int>(shape) << ", row " << i
+                    << " of " << rays.size() << ", any " << any[i] << ": "
+                    << words(rays[i], answers[i], closest[i]);
       return;
     }
   }
@@ -57,7 +58,7 @@ protected:
     EXPECT_GT(static_cast<double>(tally_.hits), share * static_cast<double>(tally_.rays));
   }
 
-  Tracer tracer_;
+  std::vector<Tracer> tracers_;
   KernelQuery query_;
   Tally tally_;
   int failures_ = 0;

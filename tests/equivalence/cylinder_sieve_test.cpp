@@ -49,18 +49,19 @@ TEST(CylinderSieve, LeavesOutWhatTheTestMisses) {
   std::size_t hits = 0, rays = 0;
   for (int i = 0; i < effort(1500); ++i) {
     const Cylinder cylinder = any_cylinder(random);
-    const Tracer tracer(scene_of(cylinder, random), with_isa(Isa::sse42));
+    const Scene scene = scene_of(cylinder, random);
     RayRun run(batch_size);
     for (Ray& ray : run) ray = grazing(cylinder, random);
-    const std::vector<Hit> answers = answers_of(reference::BruteForce(tracer.scene()), run);
+    const std::vector<Hit> answers = answers_of(reference::BruteForce(scene), run);
     rays += run.size();
     for (const Hit& answer : answers) hits += answer.found() ? 1U : 0U;
-    for (const Isa isa : simd_isas())
+    for (const Tracer& tracer : simd_tracers(scene))
       for (const BatchShape shape : {BatchShape::any, BatchShape::coherent}) {
-        const std::vector<Hit> found = query.closest(kernels_of(isa), tracer.parts().view, run, shape);
+        const std::vector<Hit> found = query.closest(tracer, run, shape);
         for (std::size_t k = 0; k < run.size(); ++k)
-          ASSERT_TRUE(same(found[k], answers[k])) << isa_word(isa) << ", shape " << static_cast<int>(shape)
-                                                  << ": " << words(run[k], answers[k], found[k]);
+          ASSERT_TRUE(same(found[k], answers[k]))
+              << isa_word(tracer.isa()) << ", shape " << static_cast<int>(shape) << ": "
+              << words(run[k], answers[k], found[k]);
       }
   }
   EXPECT_GT(hits, rays / 5);

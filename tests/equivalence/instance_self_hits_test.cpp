@@ -62,7 +62,7 @@ class InstanceSelfHits : public testing::TestWithParam<Body> {
 protected:
   static constexpr int batches = slow_build ? 5 : 30;
 
-  InstanceSelfHits() : scene_(scene_with(GetParam())), tracer_(scene_, with_isa(Isa::sse42)) {}
+  InstanceSelfHits() : scene_(scene_with(GetParam())), tracers_(simd_tracers(scene_)) {}
 
   // Outside of the body: sheared ones reach farther.
   Vec3 around(float farthest, Random& random) const {
@@ -71,10 +71,9 @@ protected:
   }
 
   // How many of the next rays hit something.
-  int count(Isa isa, bool shadows) {
+  int count(const Tracer& tracer, bool shadows) {
     Random random(101);
     KernelQuery query;
-    const SceneView& view = tracer_.parts().view;
     const Vec3 middle = reference::map_point(scene_.desc().instances.to_world[0], {0.1F, 0.2F, -0.1F});
     int hits = 0;
     for (int batch = 0; batch < batches; ++batch) {
@@ -84,7 +83,7 @@ protected:
         ray.direction = target_on_instance(scene_, 0, random) - ray.origin;
       }
       const Vec3 light = around(9, random);
-      const std::vector<Hit> found = query.closest(kernels_of(isa), view, rays, BatchShape::any);
+      const std::vector<Hit> found = query.closest(tracer, rays, BatchShape::any);
       std::vector<Ray> next;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!found[i].found()) continue;
@@ -97,22 +96,24 @@ protected:
       }
       traced_ += next.size();
       const BatchShape shape = shadows ? BatchShape::common_origin : BatchShape::coherent;
-      for (const bool hit : query.any(kernels_of(isa), view, next, shape)) hits += hit ? 1 : 0;
+      for (const bool hit : query.any(tracer, next, shape)) hits += hit ? 1 : 0;
     }
     return hits;
   }
+
+  const std::vector<Tracer>& tracers() const { return tracers_; }
 
   std::size_t traced_ = 0;
 
 private:
   Scene scene_;
-  Tracer tracer_;
+  std::vector<Tracer> tracers_;
 };
 
 TEST_P(InstanceSelfHits, AreThereNone) {
-  for (const Isa isa : simd_isas()) {
-    EXPECT_EQ(count(isa, false), 0) << isa_word(isa) << ", reflected";
-    EXPECT_EQ(count(isa, true), 0) << isa_word(isa) << ", shadows";
+  for (const Tracer& tracer : tracers()) {
+    EXPECT_EQ(count(tracer, false), 0) << isa_word(tracer.isa()) << ", reflected";
+    EXPECT_EQ(count(tracer, true), 0) << isa_word(tracer.isa()) << ", shadows";
   }
   EXPECT_GT(traced_, static_cast<std::size_t>(batches) * batch_size * simd_isas().size() / 2);
 }

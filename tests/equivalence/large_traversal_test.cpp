@@ -36,7 +36,7 @@ std::vector<NamedScene> large_scenes() {
 
 class LargeTraversal : public testing::TestWithParam<NamedScene> {
 protected:
-  LargeTraversal() : bvh_(GetParam().scene, 1), tracer_(GetParam().scene, with_isa(Isa::sse42)) {}
+  LargeTraversal() : bvh_(GetParam().scene, {1}), tracers_(simd_tracers(GetParam().scene)) {}
 
   const Scene& scene() const { return GetParam().scene; }
 
@@ -47,16 +47,15 @@ protected:
                                                                     : shape;
     const std::vector<Hit> expected = answers_of(bvh_, run);
     for (const Hit& hit : expected) hits_ += hit.found() ? 1U : 0U;
-    for (const Isa isa : simd_isas())
+    for (const Tracer& tracer : tracers_)
       for (const BatchShape traced_as : {shape, scattered, BatchShape::coherent, BatchShape::any}) {
-        const KernelTable& kernels = kernels_of(isa);
-        const std::vector<Hit> closest = query_.closest(kernels, tracer_.parts().view, run, traced_as);
-        const std::vector<bool> any = query_.any(kernels, tracer_.parts().view, run, traced_as);
+        const std::vector<Hit> closest = query_.closest(tracer, run, traced_as);
+        const std::vector<bool> any = query_.any(tracer, run, traced_as);
         for (std::size_t i = 0; i < run.size() && failures_ < 5; ++i) {
           if (skip[i] || (same(closest[i], expected[i]) && any[i] == expected[i].found())) continue;
           ++failures_;
-          ADD_FAILURE() << isa_word(isa) << ", shape " << static_cast<int>(traced_as) << ", row " << i
-                        << ", any " << any[i] << ": " << words(run[i], expected[i], closest[i]);
+          ADD_FAILURE() << isa_word(tracer.isa()) << ", shape " << static_cast<int>(traced_as) << ", row "
+                        << i << ", any " << any[i] << ": " << words(run[i], expected[i], closest[i]);
         }
       }
   }
@@ -65,7 +64,7 @@ protected:
 
 private:
   ScalarBvh bvh_;
-  Tracer tracer_;
+  std::vector<Tracer> tracers_;
   KernelQuery query_;
   int failures_ = 0;
 };

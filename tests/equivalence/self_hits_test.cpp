@@ -27,7 +27,7 @@ class SelfHits : public testing::TestWithParam<Body> {
 protected:
   static constexpr int batches = slow_build ? 10 : 200;
 
-  SelfHits() : scene_(make_scene()), tracer_(scene_, with_isa(Isa::sse42)) {}
+  SelfHits() : scene_(make_scene()), tracers_(simd_tracers(scene_)) {}
 
   static Scene make_scene() {
     const Body& body = GetParam();
@@ -57,16 +57,15 @@ protected:
   }
 
   // How many of the next rays hit something.
-  int count(Isa isa, bool shadows) {
+  int count(const Tracer& tracer, bool shadows) {
     Random random(101);
     KernelQuery query;
-    const SceneView& view = tracer_.parts().view;
     int hits = 0;
     for (int batch = 0; batch < batches; ++batch) {
       const std::vector<Ray> rays = rays_onto(random);
       const Vec3 light =
           Vec3(GetParam().offset) + GetParam().scale * random.uniform(1.2F, 9) * random.direction();
-      const std::vector<Hit> found = query.closest(kernels_of(isa), view, rays, BatchShape::any);
+      const std::vector<Hit> found = query.closest(tracer, rays, BatchShape::any);
       std::vector<Ray> next;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!found[i].found()) continue;
@@ -79,22 +78,24 @@ protected:
       }
       traced_ += next.size();
       const BatchShape shape = shadows ? BatchShape::common_origin : BatchShape::coherent;
-      for (const bool hit : query.any(kernels_of(isa), view, next, shape)) hits += hit ? 1 : 0;
+      for (const bool hit : query.any(tracer, next, shape)) hits += hit ? 1 : 0;
     }
     return hits;
   }
+
+  const std::vector<Tracer>& tracers() const { return tracers_; }
 
   std::size_t traced_ = 0;
 
 private:
   Scene scene_;
-  Tracer tracer_;
+  std::vector<Tracer> tracers_;
 };
 
 TEST_P(SelfHits, AreThereNone) {
-  for (const Isa isa : simd_isas()) {
-    EXPECT_EQ(count(isa, false), 0) << isa_word(isa) << ", reflected";
-    EXPECT_EQ(count(isa, true), 0) << isa_word(isa) << ", shadows";
+  for (const Tracer& tracer : tracers()) {
+    EXPECT_EQ(count(tracer, false), 0) << isa_word(tracer.isa()) << ", reflected";
+    EXPECT_EQ(count(tracer, true), 0) << isa_word(tracer.isa()) << ", shadows";
   }
   EXPECT_GT(traced_, static_cast<std::size_t>(batches) * batch_size * simd_isas().size());
 }
