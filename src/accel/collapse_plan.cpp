@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/accel/collapse_plan.hpp"
 
+#include "src/accel/half_area.hpp"
 #include "src/accel/parallel.hpp"
 
 #include <algorithm>
@@ -11,12 +12,7 @@ namespace {
 
 constexpr std::uint32_t mixed = max_groups;
 
-double half_area(const BinaryNode& node) {
-  const double x = static_cast<double>(node.upper[0]) - static_cast<double>(node.lower[0]);
-  const double y = static_cast<double>(node.upper[1]) - static_cast<double>(node.lower[1]);
-  const double z = static_cast<double>(node.upper[2]) - static_cast<double>(node.lower[2]);
-  return x * y + y * z + z * x;
-}
+double half_area(const BinaryNode& node) { return fastrt::half_area(node.lower, node.upper); }
 
 } // namespace
 

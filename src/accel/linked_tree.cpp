@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/accel/linked_tree.hpp"
 
+#include "src/accel/half_area.hpp"
+
 #include <algorithm>
 
 namespace fastrt {
@@ -25,11 +27,7 @@ LinkedTree::LinkedTree(const BinaryTree& tree)
 }
 
 double LinkedTree::half_area(std::uint32_t node) const {
-  const Node& n = nodes_[node];
-  const double x = static_cast<double>(n.upper[0]) - static_cast<double>(n.lower[0]);
-  const double y = static_cast<double>(n.upper[1]) - static_cast<double>(n.lower[1]);
-  const double z = static_cast<double>(n.upper[2]) - static_cast<double>(n.lower[2]);
-  return x * y + y * z + z * x;
+  return fastrt::half_area(nodes_[node].lower, nodes_[node].upper);
 }
 
 bool LinkedTree::can_move(std::uint32_t node, std::uint32_t target) const {

@@ -37,7 +37,6 @@ public:
   // Neither the root nor its children can move.
   bool can_leave(std::uint32_t node) const { return parents_[node] != none && parents_[node] != root; }
 
-  // In double: no box that floats can hold runs out of them, and what moves bring is exact enough to add up.
   double half_area(std::uint32_t node) const;
 
   // Whether `node` can become the sibling of `target` and the tree stays a tree that is not

@@ -79,4 +79,9 @@ double sah_cost(const WideTree& tree, int run_size = 8);
 int tree_depth(const WideTree& tree);
 std::size_t leaf_count(const WideTree& tree);
 
+// The same of a binary tree, whose primitives are met one by one: each costs 1.
+double sah_cost(const BinaryTree& tree);
+int tree_depth(const BinaryTree& tree);
+std::size_t leaf_count(const BinaryTree& tree);
+
 } // namespace fastrt
