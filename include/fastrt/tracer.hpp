@@ -45,7 +45,8 @@ struct HitArrays {
   std::int32_t* instance = nullptr;
 };
 
-// Of all trees together: the scene's, and those of the prototypes.
+// Of all trees together: the scene's, and those of the prototypes. Isa::scalar has trees of its own, whose
+// leaves hold primitives, not blocks.
 struct BvhStats {
   double sah_cost = 0; // expected node visits + tests of a leaf's primitives of a ray that meets the root
   std::size_t node_count = 0;

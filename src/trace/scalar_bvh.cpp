@@ -4,6 +4,7 @@
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/instances.hpp"
 #include "src/trace/primitive_boxes.hpp"
+#include "src/trace/scene_trees.hpp"
 
 #include <array>
 #include <utility>
@@ -62,22 +63,45 @@ struct Pending {
   float entry;
 };
 
+Aabb bounds_of(const BinaryTree& tree) {
+  if (tree.nodes.empty()) return {};
+  const BinaryNode& root = tree.nodes[0];
+  return {{root.lower[0], root.lower[1], root.lower[2]}, {root.upper[0], root.upper[1], root.upper[2]}};
+}
+
+TreeStats stats_of(const BinaryTree& tree) {
+  return {sah_cost(tree), tree.nodes.size(), leaf_count(tree), tree_depth(tree)};
+}
+
+std::size_t bytes_of(const BinaryTree& tree) {
+  return tree.nodes.bytes() + tree.order.bytes() + tree.group_of_leaf.bytes();
+}
+
 } // namespace
 
-ScalarBvh::Tree ScalarBvh::make_tree(Column<PrimitiveBox> boxes, int threads) {
-  Tree tree{build_binary_tree(boxes, {threads}), 0};
-  if (tree.binary.nodes.empty()) return tree;
-  const BinaryNode& root = tree.binary.nodes[0];
-  for (int axis = 0; axis < 3; ++axis)
-    tree.largest_coordinate = reference::max(
-        std::fabs(root.lower[axis]), reference::max(std::fabs(root.upper[axis]), tree.largest_coordinate));
+ScalarBvh::Tree ScalarBvh::make_tree(Column<PrimitiveBox> boxes, BuildSettings settings) {
+  if (boxes.size() < parallel_build_from) settings.threads = 1;
+  Tree tree{build_binary_tree(boxes, settings), 0};
+  tree.largest_coordinate = largest_magnitude(bounds_of(tree.binary));
   return tree;
 }
 
-ScalarBvh::ScalarBvh(const Scene& scene, int threads)
-    : scene_(&scene), world_(make_tree(world_boxes(scene), threads)) {
+ScalarBvh::ScalarBvh(const Scene& scene, const BuildSettings& settings)
+    : scene_(&scene), world_(make_tree(world_boxes(scene), settings)) {
   for (const Prototype& prototype : scene.desc().prototypes)
-    prototypes_.push_back(make_tree(prototype_boxes(scene, prototype), threads));
+    prototypes_.push_back(make_tree(prototype_boxes(scene, prototype), settings));
+}
+
+BvhStats ScalarBvh::stats() const {
+  std::vector<TreeStats> prototypes;
+  std::size_t bytes = bytes_of(world_.binary);
+  for (const Tree& tree : prototypes_) {
+    prototypes.push_back(stats_of(tree.binary));
+    bytes += bytes_of(tree.binary);
+  }
+  BvhStats stats = stats_of(*scene_, stats_of(world_.binary), prototypes, bounds_of(world_.binary));
+  stats.bytes = bytes;
+  return stats;
 }
 
 template <bool any_will_do>

@@ -5,6 +5,7 @@
 #include "src/reference/hit_finder.hpp"
 
 #include <fastrt/scene.hpp>
+#include <fastrt/tracer.hpp>
 
 #include <vector>
 
@@ -15,20 +16,20 @@ namespace fastrt {
 // outlive it.
 class ScalarBvh final : public reference::HitFinder {
 public:
-  // threads: for the build; 0 takes every core.
-  explicit ScalarBvh(const Scene& scene, int threads = 0);
+  explicit ScalarBvh(const Scene& scene, const BuildSettings& settings = {});
 
   reference::Hit closest(const reference::Ray& ray) const override;
   bool any(const reference::Ray& ray) const override;
 
   const BinaryTree& tree() const noexcept { return world_.binary; } // not a prototype's
+  BvhStats stats() const;                                           // of all trees; build_seconds is 0
 
 private:
   struct Tree {
     BinaryTree binary;
     float largest_coordinate; // of its bounds, as a magnitude
   };
-  static Tree make_tree(Column<PrimitiveBox> boxes, int threads);
+  static Tree make_tree(Column<PrimitiveBox> boxes, BuildSettings settings);
 
   template <bool any_will_do>
   reference::Hit trace(const reference::Ray& ray) const;

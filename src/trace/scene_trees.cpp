@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/trace/scene_trees.hpp"
 
+#include "src/accel/half_area.hpp"
 #include "src/scene/shapes.hpp"
 #include "src/trace/primitive_boxes.hpp"
 
@@ -43,18 +44,17 @@ std::uint32_t append(WideTree& all, WideTree tree) {
   return root;
 }
 
-double area(const Aabb& box) {
-  if (box.empty()) return 0;
-  const glm::dvec3 e = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+TreeStats stats_of(const WideTree& tree, int run_size) {
+  return {sah_cost(tree, run_size), tree.nodes.size(), leaf_count(tree), tree_depth(tree)};
 }
 
 // A ray that meets an instance's box goes through its prototype's tree.
-double cost_of_instances(const Scene& scene, const std::vector<double>& costs, const Aabb& bounds) {
+double cost_of_instances(const Scene& scene, const std::vector<TreeStats>& prototypes, const Aabb& bounds) {
   double sum = 0;
   for (std::size_t i = 0; i < scene.instance_count(); ++i)
-    sum += area(scene.shapes().instances[i].box) * costs[scene.desc().instances.prototype[i]];
-  return area(bounds) > 0 ? sum / area(bounds) : 0.0;
+    sum +=
+        half_area(scene.shapes().instances[i].box) * prototypes[scene.desc().instances.prototype[i]].sah_cost;
+  return half_area(bounds) > 0 ? sum / half_area(bounds) : 0.0;
 }
 
 } // namespace
@@ -65,26 +65,34 @@ float largest_magnitude(const Aabb& box) {
   return std::fmax(v.x, std::fmax(v.y, v.z));
 }
 
+BvhStats stats_of(const Scene& scene, const TreeStats& world, const std::vector<TreeStats>& prototypes,
+                  const Aabb& bounds) {
+  BvhStats stats;
+  stats.node_count = world.nodes;
+  stats.leaf_count = world.leaves;
+  int depth = 0;
+  for (const TreeStats& prototype : prototypes) {
+    stats.node_count += prototype.nodes;
+    stats.leaf_count += prototype.leaves;
+    depth = std::max(depth, prototype.depth);
+  }
+  stats.sah_cost = world.sah_cost + cost_of_instances(scene, prototypes, bounds);
+  stats.depth = world.depth + depth;
+  return stats;
+}
+
 SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings) {
   SceneTrees trees;
   trees.all = build_tree(world_boxes(scene), settings);
-  BvhStats& stats = trees.stats;
-  stats.leaf_count = leaf_count(trees.all);
-  stats.sah_cost = sah_cost(trees.all, settings.run_size);
-  stats.depth = tree_depth(trees.all);
-  int depth = 0;
-  std::vector<double> costs;
+  const TreeStats world = stats_of(trees.all, settings.run_size);
+  std::vector<TreeStats> prototypes;
   for (const Prototype& prototype : scene.desc().prototypes) {
     WideTree tree = build_tree(prototype_boxes(scene, prototype), settings);
-    depth = std::max(depth, tree_depth(tree));
-    stats.leaf_count += leaf_count(tree);
-    costs.push_back(sah_cost(tree, settings.run_size));
+    prototypes.push_back(stats_of(tree, settings.run_size));
     const float largest = largest_magnitude(tree.bounds);
     trees.prototypes.push_back({append(trees.all, std::move(tree)), largest});
   }
-  stats.node_count = trees.all.nodes.size();
-  stats.sah_cost += cost_of_instances(scene, costs, trees.all.bounds);
-  stats.depth += depth;
+  trees.stats = stats_of(scene, world, prototypes, trees.all.bounds);
   return trees;
 }
 

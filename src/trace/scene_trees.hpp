@@ -29,6 +29,17 @@ struct SceneTrees {
   BvhStats stats; // of the trees alone: not the blocks' number and bytes
 };
 
+// Of one tree.
+struct TreeStats {
+  double sah_cost;
+  std::size_t nodes, leaves;
+  int depth;
+};
+
+// Of the scene's trees together, but for blocks and bytes. bounds: of the world's.
+BvhStats stats_of(const Scene& scene, const TreeStats& world, const std::vector<TreeStats>& prototypes,
+                  const Aabb& bounds);
+
 // Throws LimitError for too many blocks.
 SceneTrees build_scene_trees(const Scene& scene, const BuildSettings& settings);
 

@@ -119,35 +119,49 @@ void fill_shading_view(Tracer::Parts& parts) {
 // Where registers have four lanes, a leaf of eight triangles takes two tests.
 int run_size_of(Isa isa) { return isa_width(isa) < 8 ? 4 : 8; }
 
-void fill_stats(Tracer::Parts& parts, const SceneTrees& trees) {
-  BvhStats& stats = parts.stats;
-  stats = trees.stats;
+BvhStats stats_of(const Tracer::Parts& parts, const SceneTrees& trees) {
+  BvhStats stats = trees.stats;
   stats.block_count = parts.triangle_blocks.size() + parts.sphere_blocks.size() + parts.shape_blocks.size();
   stats.bytes = stats.node_count * sizeof(WideNode) + parts.triangle_blocks.size() * sizeof(TriangleBlock) +
                 parts.sphere_blocks.size() * sizeof(SphereBlock) +
                 parts.shape_blocks.size() * sizeof(ShapeBlock) + parts.shapes.bytes();
-  const std::uint32_t primitives = parts.scene.primitive_count();
-  stats.bytes_per_primitive = primitives == 0 ? 0.0 : static_cast<double>(stats.bytes) / primitives;
+  return stats;
 }
 
 // Trees -> blocks and rows.
-SceneTrees build(Tracer::Parts& parts, int threads, BvhQuality quality) {
-  BuildSettings settings;
-  place_threads(thread_count(threads));
+SceneTrees build_blocks(Tracer::Parts& parts, const BuildSettings& settings) {
+  SceneTrees trees = build_scene_trees(parts.scene, settings);
+  const auto& slots = trees.all.slots;
+  parts.triangle_blocks = triangle_blocks(parts.scene, slots[triangle_group]);
+  parts.sphere_blocks = sphere_blocks(parts.scene, slots[sphere_group]);
+  parts.shape_blocks = shape_blocks(parts.scene, slots[shape_group]);
+  parts.shapes = shape_rows(parts.scene, trees.prototypes);
+  return trees;
+}
+
+BuildSettings build_settings(const Tracer::Parts& parts, int threads, BvhQuality quality) {
   const std::size_t boxes = std::size_t{parts.scene.primitive_count()} + parts.scene.instance_count();
-  settings.threads = boxes < parallel_build_from ? 1 : thread_count(threads);
-  settings.quality = quality;
-  settings.run_size = run_size_of(parts.isa);
+  return {boxes < parallel_build_from ? 1 : thread_count(threads), run_size_of(parts.isa), quality};
+}
+
+// What the tracer's ISA asks: the kernels' trees, or the scalar one, and then none of the kernels'.
+SceneTrees build(Tracer::Parts& parts, const TracerSettings& tracer_settings) {
+  const auto start = std::chrono::steady_clock::now();
+  place_threads(thread_count(tracer_settings.threads));
+  const BuildSettings settings = build_settings(parts, tracer_settings.threads, tracer_settings.quality);
   SceneTrees trees;
   TaskFailure failure;
   run_tasks(settings.threads, failure, [&] {
-    trees = build_scene_trees(parts.scene, settings);
-    const auto& slots = trees.all.slots;
-    parts.triangle_blocks = triangle_blocks(parts.scene, slots[triangle_group]);
-    parts.sphere_blocks = sphere_blocks(parts.scene, slots[sphere_group]);
-    parts.shape_blocks = shape_blocks(parts.scene, slots[shape_group]);
-    parts.shapes = shape_rows(parts.scene, trees.prototypes);
+    if (parts.kernels == nullptr)
+      parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings);
+    else
+      trees = build_blocks(parts, settings);
   });
+  BvhStats& stats = parts.stats;
+  stats = parts.scalar_bvh ? parts.scalar_bvh->stats() : stats_of(parts, trees);
+  const std::uint32_t primitives = parts.scene.primitive_count();
+  stats.bytes_per_primitive = primitives == 0 ? 0.0 : static_cast<double>(stats.bytes) / primitives;
+  stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return trees;
 }
 
@@ -159,10 +173,7 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   parts.isa = settings.isa;
   if (!isa_available(parts.isa)) parts.isa = select_isa(isa_name(settings.isa)); // throws
   parts.kernels = table_of(parts.isa);
-  const auto start = std::chrono::steady_clock::now();
-  SceneTrees trees = build(parts, settings.threads, settings.quality);
-  fill_stats(parts, trees);
-  parts.stats.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  SceneTrees trees = build(parts, settings);
   parts.nodes = std::move(trees.all.nodes);
   parts.textures = texture_rows(parts.scene);
   parts.materials = material_rows(parts.scene, parts.textures);
@@ -171,7 +182,6 @@ Tracer::Tracer(Scene scene, const TracerSettings& settings)
   fill_geometry_view(parts, trees.all, settings.culling);
   fill_shading_view(parts);
   place_lights_in_media(parts);
-  if (parts.kernels == nullptr) parts.scalar_bvh = std::make_unique<ScalarBvh>(parts.scene, settings.threads);
 }
 
 Tracer::~Tracer() = default;

@@ -188,23 +188,51 @@ TEST_P(TracerOf, CanBeMoved) {
   EXPECT_EQ(second.isa(), GetParam());
 }
 
-TEST_P(TracerOf, KnowsItsTree) {
+Scene rough_ball() {
   Random random(1);
   SceneBuilder builder;
   add(builder, jittered(icosphere(3), 0.01F, random), builder.add_material({}));
-  const Tracer tracer = TracerOf::tracer(builder.build());
+  return builder.build();
+}
+
+TEST_P(TracerOf, KnowsItsTree) {
+  const Tracer tracer = TracerOf::tracer(rough_ball());
   const BvhStats& stats = tracer.bvh_stats();
   EXPECT_EQ(tracer.scene().primitive_count(), 1280U);
-  EXPECT_GE(stats.block_count, 320U);
-  EXPECT_GE(stats.leaf_count, stats.block_count / 4);
+  if (GetParam() == Isa::scalar)
+    EXPECT_EQ(stats.block_count, 0U);
+  else
+    EXPECT_GE(stats.block_count, 320U);
+  EXPECT_GE(stats.leaf_count, 1280U / 16);
   EXPECT_GT(stats.node_count, 10U);
   EXPECT_GT(stats.depth, 1);
   EXPECT_GT(stats.sah_cost, 1.0);
-  EXPECT_GT(stats.bytes_per_primitive, 40.0);
+  EXPECT_GT(stats.bytes_per_primitive, GetParam() == Isa::scalar ? 10.0 : 40.0);
   EXPECT_LT(stats.bytes_per_primitive, 400.0);
+  EXPECT_GT(stats.build_seconds, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Isas, TracerOf, testing::ValuesIn(available_isas()), IsaWord());
+
+TEST(ScalarTracer, ReportsTheTreeThatItTraces) {
+  TracerSettings settings;
+  settings.isa = Isa::scalar;
+  Random random(2);
+  SceneBuilder builder;
+  add(builder, soup(2000, 0.3F, random), builder.add_material({}));
+  const Scene scene = builder.build();
+  const Tracer standard(scene, settings);
+  settings.quality = BvhQuality::high;
+  const Tracer high(scene, settings);
+  for (const Tracer* tracer : {&standard, &high}) {
+    const BinaryTree& tree = tracer->parts().scalar_bvh->tree();
+    EXPECT_EQ(tracer->bvh_stats().node_count, tree.nodes.size());
+    EXPECT_EQ(tracer->bvh_stats().leaf_count, (tree.nodes.size() + 1) / 2);
+    EXPECT_EQ(tracer->bvh_stats().sah_cost, sah_cost(tree));
+    EXPECT_TRUE(tracer->parts().nodes.empty());
+  }
+  EXPECT_LT(high.bvh_stats().sah_cost, standard.bvh_stats().sah_cost);
+}
 
 TEST(TracerSettings, TakeTheWidestIsaByThemselves) {
   EXPECT_EQ(TracerSettings().isa, available_isas().front());
