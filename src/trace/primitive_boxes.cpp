@@ -2,12 +2,12 @@
 #include "src/trace/primitive_boxes.hpp"
 
 #include "src/accel/parallel.hpp"
-#include "src/reference/arithmetic.hpp"
-#include "src/reference/intersect.hpp"
+#include "src/scene/shapes.hpp"
 #include "src/trace/scene_view.hpp"
 
 #include <emmintrin.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace fastrt {
@@ -47,9 +47,11 @@ PrimitiveBox* put_triangle_boxes(const Scene& scene, const RowRange& rows, Primi
 }
 
 PrimitiveBox sphere_box(const Scene& scene, std::uint32_t row) {
-  const auto [center, radius] = reference::sphere_shape(scene, row);
+  const SphereColumns& spheres = scene.spheres();
+  const Vec3 center{spheres.x[row], spheres.y[row], spheres.z[row]}, size = glm::abs(center);
+  const float radius = spheres.radius[row];
   // Two ulps more than the radius, so that no rounding leaves the rim outside.
-  const Vec3 reach{radius + 0x1p-22F * (radius + reference::largest_magnitude(center))};
+  const Vec3 reach{radius + 0x1p-22F * (radius + std::max({size.x, size.y, size.z}))};
   return box_of({center - reach, center + reach}, scene.triangle_count() + row, sphere_group);
 }
 

@@ -47,6 +47,9 @@ for file in src/**/*.[ch]pp; do
     if [[ $path == reference/* && $target != reference/* && $target_floor -gt 1 ]]; then
       complain "$file: the reference includes src/$target"
     fi
+    if [[ $path =~ ^(trace|kernels)/ && $path != trace/scalar_bvh.* && $target == reference/* ]]; then
+      complain "$file: only src/trace/scalar_bvh.* may include the reference, src/$target"
+    fi
     if [[ $path == accel/* && $target != accel/* && $target_floor -ne 0 ]]; then
       complain "$file: the tree includes src/$target"
     fi

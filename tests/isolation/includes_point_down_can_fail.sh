@@ -17,11 +17,14 @@ tree() {
   echo '#include "src/simd/lanes.hpp"' >src/kernels/box.hpp
   echo '#include "src/kernels/box.hpp"' >src/trace/tile.hpp
   echo '#include <fastrt/math.hpp>' >src/scene/scene.hpp
+  echo '#include "src/scene/scene.hpp"' >src/reference/ray.hpp
   mkdir -p "$(dirname "$1")"
   echo "#include $2" >>"$1"
 }
 
 tree src/render/frame.hpp '"src/trace/tile.hpp"'
+bash "$check" "$scratch/tree"
+tree src/trace/scalar_bvh.cpp '"src/reference/ray.hpp"'
 bash "$check" "$scratch/tree"
 
 while read -r file include; do
@@ -34,6 +37,9 @@ done <<'LIST'
 src/scene/a.hpp "src/trace/tile.hpp"
 src/accel/a.hpp "src/scene/scene.hpp"
 src/reference/a.hpp "src/kernels/box.hpp"
+src/trace/a.hpp "src/reference/ray.hpp"
+src/trace/scalar.cpp "src/reference/ray.hpp"
+src/kernels/a.hpp "src/reference/ray.hpp"
 src/kernels/a.hpp <vector>
 src/kernels/a.hpp <fastrt/math.hpp>
 src/scene/a.hpp "scene.hpp"
