@@ -32,7 +32,7 @@ FASTRT_INLINE void texture_coordinates(const ShadingView& scene, std::uint32_t p
   out[1] = v;
   if (primitive >= scene.triangle_count || scene.uv_x == nullptr) return;
   const std::uint32_t a = scene.t0[primitive], b = scene.t1[primitive], c = scene.t2[primitive];
-  if (a == 0xFFFFFFFFU || b == 0xFFFFFFFFU || c == 0xFFFFFFFFU) return;
+  if (a == no_row || b == no_row || c == no_row) return;
   const float w = (1.0F - u) - v;
   out[0] = (w * scene.uv_x[a] + u * scene.uv_x[b]) + v * scene.uv_x[c];
   out[1] = (w * scene.uv_y[a] + u * scene.uv_y[b]) + v * scene.uv_y[c];

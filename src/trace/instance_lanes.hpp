@@ -8,7 +8,7 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
-inline constexpr std::uint32_t no_override = 0xFFFFFFFFU;
+inline constexpr std::uint32_t no_override = no_row;
 
 // The instance that a hit's id stands for, or null for a primitive.
 FASTRT_INLINE const InstanceRow* instance_of(const ShapeView& shapes, std::int32_t id) {

@@ -6,6 +6,10 @@
 namespace fastrt {
 namespace {
 
+static_assert(no_row == no_index);
+static_assert(fresnel_schlick == static_cast<std::uint32_t>(Fresnel::schlick));
+static_assert(fresnel_dielectric == static_cast<std::uint32_t>(Fresnel::dielectric));
+
 bool any_not_zero(const Vec3& v) { return v.x != 0.0F || v.y != 0.0F || v.z != 0.0F; }
 bool any_positive(const Vec3& v) { return v.x > 0.0F || v.y > 0.0F || v.z > 0.0F; }
 

@@ -12,6 +12,10 @@ namespace fastrt {
 
 inline constexpr int max_media = 4; // media that a ray can be in at once
 
+// Values of the public interface, which kernels don't see; scene_rows.cpp holds them equal.
+inline constexpr std::uint32_t no_row = 0xFFFFFFFFU; // no_index: a corner has no normal or texture coordinate
+inline constexpr std::uint32_t fresnel_schlick = 1, fresnel_dielectric = 2; // MaterialRow::fresnel
+
 // Four triangles, their vertices as columns: x of vertex v of triangle i is x[v][i]. Rows that are not used
 // hold NaN, which no comparison lets through, and the id -1.
 struct alignas(32) TriangleBlock {
@@ -70,7 +74,7 @@ struct InstanceRow {
   float growth;
   float largest_coordinate;       // of any box in the prototype's tree
   std::uint32_t root;             // of that tree
-  std::uint32_t material, object; // of all that it shows; 0xFFFFFFFF: the primitives' own
+  std::uint32_t material, object; // of all that it shows; no_row: the primitives' own
 };
 
 // The primitives that are neither triangles nor spheres, by kind. Their ids follow one another, and those of

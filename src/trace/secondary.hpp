@@ -94,13 +94,13 @@ FASTRT_INLINE SecondaryLanes secondary_lanes(const MaterialRow& row, const Surfa
     const PathV bent = a.incident * eta + a.normal * (eta * a.cosine - cos_t);
     out.transmitted = select(dot(bent, a.geometric) >= zero, a.incident, bent);
   }
-  if (row.fresnel == static_cast<std::uint32_t>(1)) {
+  if (row.fresnel == fresnel_schlick) {
     const PathF x = max(one - a.cosine, zero);
     const PathF x2 = x * x;
     const PathF x5 = (x2 * x2) * x;
     const PathV kr = out.mirror_weight;
     out.mirror_weight = kr + V3<PathF>{one - kr.x, one - kr.y, one - kr.z} * x5;
-  } else if (row.fresnel == static_cast<std::uint32_t>(2)) {
+  } else if (row.fresnel == fresnel_dielectric) {
     const PathF rs = (eta_i * a.cosine - eta_t * cos_t) / (eta_i * a.cosine + eta_t * cos_t);
     const PathF rp = (eta_t * a.cosine - eta_i * cos_t) / (eta_t * a.cosine + eta_i * cos_t);
     const PathF reflected = simd::select(total, one, PathF(0.5F) * (rs * rs + rp * rp));

@@ -62,7 +62,7 @@ static HitSite find_site(const ShadingView& scene, const RayBatch& rays, const H
   site.w = (1.0F - site.u) - site.v;
   if (scene.t0 == nullptr) return site;
   const std::uint32_t uv[3] = {scene.t0[id], scene.t1[id], scene.t2[id]};
-  if (uv[0] == 0xFFFFFFFFU || uv[1] == 0xFFFFFFFFU || uv[2] == 0xFFFFFFFFU) return site;
+  if (uv[0] == no_row || uv[1] == no_row || uv[2] == no_row) return site;
   const float *tu = scene.uv_x, *tv = scene.uv_y;
   site.has_uv = true;
   site.at_u = (site.w * tu[uv[0]] + site.u * tu[uv[1]]) + site.v * tu[uv[2]];
