@@ -63,21 +63,17 @@ FASTRT_INLINE std::uint32_t groups_with(std::uint64_t rays) {
 FASTRT_INLINE V3<float> sum_directions(const RayBatch& rays, int first, int count, std::uint64_t& live) {
   live = 0;
   V3<PacketF> sum{PacketF(0.0F), PacketF(0.0F), PacketF(0.0F)};
-  const PacketF zero(0.0F), most(__builtin_inff());
+  const PacketF zero(0.0F);
   for (int k = 0; k < count; k += widest) {
     const int i = first + k;
     const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-    const PacketF finite = ((abs(origin.x) + abs(origin.y)) + abs(origin.z)) * zero;
-    const PacketF size = (abs(dir.x) + abs(dir.y)) + abs(dir.z);
     const PacketF begin = load<PacketF>(rays.t_min + i);
-    const PacketM alive =
-        (finite == zero) & (size > zero) & (size < most) & (begin < load<PacketF>(rays.t_max + i));
-    const int left = count - k;
-    const std::uint32_t bits = to_bits(alive) & (left >= widest ? ~0U : (1U << left) - 1U);
+    const PacketM alive = are_traceable(origin, dir) & (begin < load<PacketF>(rays.t_max + i));
+    const std::uint32_t bits = to_bits(alive) & lanes_in(count - k);
     if ((to_bits(begin < zero) & bits) != 0) return {0.0F, 0.0F, 0.0F};
     live |= static_cast<std::uint64_t>(bits) << k;
-    const V3<PacketF> unit_dir = dir * (PacketF(1.0F) / size);
+    const V3<PacketF> unit_dir = dir * (PacketF(1.0F) / sum_of_sizes(dir));
     const PacketM mask = from_bits<widest>(bits);
     sum = sum + select(mask, unit_dir, V3<PacketF>{zero, zero, zero});
   }

@@ -31,15 +31,6 @@ FASTRT_INLINE V3<F> map_point(const float (&map)[4][3], const V3<F>& p) {
   return map_vector(map, p) + broadcast3<F>(map[3]);
 }
 
-// Lanes whose numbers make sense: a map may send them to infinity.
-template <class F>
-FASTRT_INLINE MaskOf<F> are_traceable(const V3<F>& origin, const V3<F>& dir) {
-  const F zero(0.0F);
-  const F size = (abs(dir.x) + abs(dir.y)) + abs(dir.z);
-  return (((abs(origin.x) + abs(origin.y)) + abs(origin.z)) * zero == zero) & (size > zero) &
-         (size < F(__builtin_inff()));
-}
-
 // Rays of the world, one per lane, before an instance.
 template <class F>
 struct WorldRays {
@@ -83,6 +74,7 @@ FASTRT_INLINE std::uint32_t enter_instance(const InstanceRow& row, const WorldRa
                                            std::uint32_t bits, int at, InstanceRays& to) {
   const V3<F> origin = map_point(row.to_object, rays.origin), dir = map_vector(row.to_object, rays.dir);
   const Passage<F> inside = inside_box(row, rays);
+  // A map may send rays to infinity.
   const MaskOf<F> met = (inside.from < inside.to) & are_traceable(origin, dir) & from_bits<width_of<F>>(bits);
   store3(origin, to.rays.origin_x + at, to.rays.origin_y + at, to.rays.origin_z + at);
   store3(dir, to.rays.dir_x + at, to.rays.dir_y + at, to.rays.dir_z + at);
@@ -141,8 +133,7 @@ FASTRT_INLINE void add_rays(InstanceVisit& visit, int first, std::uint32_t bits)
 
 // Rays first .. first + 15, whole even where few of them are meant: neighbours stay neighbours.
 FASTRT_INLINE void add_group(InstanceVisit& visit, int first, std::uint32_t bits) {
-  for (int k = 0; k < group_size; k += widest)
-    add_rays(visit, first + k, bits >> k & ((1U << (widest - 1)) * 2U - 1U));
+  for (int k = 0; k < group_size; k += widest) add_rays(visit, first + k, bits >> k & register_bits);
 }
 
 // Returns whether some ray of the register meets the instance.

@@ -16,15 +16,10 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 using PacketF = Floats<widest>;
 using PacketI = Ints<widest>;
 using PacketM = Mask<widest>;
-inline constexpr std::uint32_t register_bits = (1U << (widest - 1)) * 2U - 1U;
 
-// Lanes that hold a live ray with a finite origin and a direction.
-FASTRT_INLINE PacketM traceable_lanes(const V3<PacketF>& origins, const V3<PacketF>& dirs, int live) {
-  const PacketF origin = ((abs(origins.x) + abs(origins.y)) + abs(origins.z)) * PacketF(0.0F);
-  const PacketF dir = (abs(dirs.x) + abs(dirs.y)) + abs(dirs.z);
-  const std::uint32_t bits = live >= widest ? register_bits : (1U << live) - 1U;
-  return (origin == PacketF(0.0F)) & (dir > PacketF(0.0F)) & (dir < PacketF(__builtin_inff())) &
-         from_bits<widest>(bits);
+// Lanes that hold one of the `left` rays that are left, and one that can be traced.
+FASTRT_INLINE PacketM traceable_lanes(const V3<PacketF>& origins, const V3<PacketF>& dirs, int left) {
+  return are_traceable(origins, dirs) & from_bits<widest>(lanes_in(left));
 }
 
 // Boxes are met as if larger by this share of the largest coordinate: what is left of it beyond the reach of

@@ -16,9 +16,8 @@ struct PackedBatch {
 
 // The rays i .. i + widest - 1 of a batch that may hit something.
 FASTRT_INLINE std::uint32_t looking_bits(const RayBatch& rays, int i) {
-  const int left = rays.count - i;
   return to_bits(PacketF::load_aligned(rays.t_min + i) < PacketF::load_aligned(rays.t_max + i)) &
-         (left >= widest ? register_bits : (1U << left) - 1U);
+         lanes_in(rays.count - i);
 }
 
 // The rays of a batch that take part: bit l of word g is ray 16 g + l.

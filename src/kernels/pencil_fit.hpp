@@ -47,7 +47,7 @@ FASTRT_INLINE void aim_pencil(const RayBatch& rays, int first, std::uint32_t liv
     const PacketM mask = from_bits<widest>(live >> k & register_bits);
     const V3<PacketF> dir = load_dir(rays, first + k), none{zero, zero, zero};
     origins = origins + select(mask, load_origin(rays, first + k), none);
-    dirs = dirs + select(mask, dir * (PacketF(1.0F) / ((abs(dir.x) + abs(dir.y)) + abs(dir.z))), none);
+    dirs = dirs + select(mask, dir * (PacketF(1.0F) / sum_of_sizes(dir)), none);
   }
   const float share = 1.0F / static_cast<float>(__builtin_popcount(live));
   f.origin = {simd::hadd(origins.x) * share, simd::hadd(origins.y) * share, simd::hadd(origins.z) * share};

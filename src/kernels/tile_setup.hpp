@@ -17,19 +17,14 @@ FASTRT_INLINE LiveRays find_live_rays(const RayBatch& rays) {
   LiveRays live{};
   live.first = live.last = -1;
   live.backwards = false;
-  const PacketF zero(0.0F), most(__builtin_inff());
+  const PacketF zero(0.0F);
   const bool one_origin = has_one_origin(rays.shape);
   for (int i = 0; i < rays.count; i += widest) {
     const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
-    const PacketF size = (abs(dir.x) + abs(dir.y)) + abs(dir.z);
-    PacketM alive =
-        (size > zero) & (size < most) & (load<PacketF>(rays.t_min + i) < load<PacketF>(rays.t_max + i));
-    if (!one_origin) {
-      const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
-      alive = alive & (((abs(origin.x) + abs(origin.y)) + abs(origin.z)) * zero == zero);
-    }
-    const int left = rays.count - i;
-    const std::uint32_t bits = to_bits(alive) & (left >= widest ? ~0U : (1U << left) - 1U);
+    PacketM alive = have_direction(dir) & (load<PacketF>(rays.t_min + i) < load<PacketF>(rays.t_max + i));
+    if (!one_origin)
+      alive = alive & are_finite(load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i));
+    const std::uint32_t bits = to_bits(alive) & lanes_in(rays.count - i);
     live.bits[i / group_size] |= bits << (i % group_size);
     if (bits == 0) continue;
     if (live.first < 0) live.first = i + __builtin_ctz(bits);

@@ -78,5 +78,25 @@ template <class F>
 FASTRT_INLINE F largest(const V3<F>& a) {
   return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
+template <class F>
+FASTRT_INLINE F sum_of_sizes(const V3<F>& a) {
+  return (abs(a.x) + abs(a.y)) + abs(a.z);
+}
+
+// Lanes whose ray can be traced: its origin is finite, and it has a direction, finite too.
+template <class F>
+FASTRT_INLINE MaskOf<F> are_finite(const V3<F>& origin) {
+  const F zero(0.0F);
+  return sum_of_sizes(origin) * zero == zero;
+}
+template <class F>
+FASTRT_INLINE MaskOf<F> have_direction(const V3<F>& dir) {
+  const F size = sum_of_sizes(dir);
+  return (size > F(0.0F)) & (size < F(__builtin_inff()));
+}
+template <class F>
+FASTRT_INLINE MaskOf<F> are_traceable(const V3<F>& origin, const V3<F>& dir) {
+  return are_finite(origin) & have_direction(dir);
+}
 
 } // namespace fastrt::FASTRT_ISA_NAMESPACE

@@ -34,6 +34,14 @@ inline constexpr int widest = 8;
 inline constexpr int widest = 4;
 #endif
 
+// All lanes of the widest register, lane 0 lowest.
+inline constexpr std::uint32_t register_bits = (1U << (widest - 1)) * 2U - 1U;
+
+// The lanes of a register that are filled where `left` things are left: mostly all.
+FASTRT_INLINE std::uint32_t lanes_in(int left) {
+  return __builtin_expect(left >= widest, 1) ? register_bits : (1U << left) - 1U;
+}
+
 template <int W>
 struct ArchOf;
 template <>

@@ -60,8 +60,8 @@ FASTRT_INLINE void add_run(const PhotonLevelView& level, std::uint32_t begin, st
     if (i < begin) bits &= ~0U << (begin - i);
     if (end - i < photon_sums) bits &= ~(~0U << (end - i));
     for (std::uint32_t part = 0; part < photon_sums / widest; ++part)
-      add_photons(level, i + part * widest, bits >> (part * widest) & ((1U << (widest - 1)) * 2U - 1U), point,
-                  normal, sums.parts[part]);
+      add_photons(level, i + part * widest, bits >> (part * widest) & register_bits, point, normal,
+                  sums.parts[part]);
   }
 }
 

@@ -112,7 +112,7 @@ FASTRT_INLINE void fade_towards_eye(const PhotonJob& job, TileScratch& scratch) 
   const int count = scratch.shadow.count;
   std::uint32_t alive[batch_size / widest];
   for (int i = 0; i < count; i += widest) {
-    alive[i / widest] = count - i >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << (count - i)) - 1U;
+    alive[i / widest] = lanes_in(count - i);
     for (int k = 0; k < max_media; ++k) PathI(job.eye.media[k]).store_aligned(scratch.shadow_media[k] + i);
   }
   trace_fading_shadows(*job.scene, false, alive, scratch);

@@ -58,7 +58,7 @@ FASTRT_INLINE void gather_instances(const ShapeView& shapes, const HitBatch& hit
   ids.store_aligned(lanes.primitive);
   if (shapes.instance_count == 0) return;
   const PathM mask = simd::bool_cast(places >= PathI(0));
-  lanes.bits = to_bits(mask) & (count >= widest ? register_bits : (1U << count) - 1U);
+  lanes.bits = to_bits(mask) & lanes_in(count);
   if (lanes.bits == 0) return;
   select_ints<PathF>(mask, PathI::load_aligned(hits.inner + i), ids).store_aligned(lanes.primitive);
   lanes.rows = places * PathI(instance_words);

@@ -12,9 +12,8 @@ inline constexpr float offset_share = 0x1p-20F; // h = M * 2^-20
 
 // The rays i .. i + widest - 1 of a batch that are in it and hit something.
 FASTRT_INLINE std::uint32_t hit_bits(const PathBatch& rays, const HitBatch& hits, int i) {
-  const int live = rays.count - i;
-  const std::uint32_t in_batch = live >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << live) - 1U;
-  return to_bits(simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0))) & in_batch;
+  return to_bits(simd::bool_cast(PathI::load_aligned(hits.primitive + i) >= PathI(0))) &
+         lanes_in(rays.count - i);
 }
 
 FASTRT_INLINE PathV load_point(const SurfaceBatch& s, int i) {

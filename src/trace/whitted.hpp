@@ -25,7 +25,7 @@ inline constexpr LaneNumbers lane_numbers = [] {
 FASTRT_INLINE bool are_in_a_row(const PathBatch& rays, int i) {
   const PathI expected = PathI::load_aligned(lane_numbers.lane) + PathI(rays.pixel[i]);
   const PathM same = simd::bool_cast(PathI::load_aligned(rays.pixel + i) == expected);
-  return to_bits(same) == (1U << (widest - 1)) * 2U - 1U;
+  return to_bits(same) == register_bits;
 }
 
 // acc = acc + weight * light, for the lanes in `bits`.
@@ -104,8 +104,7 @@ static void see_surfaces(const TileJob& job, PathBatch& rays, TileScratch& scrat
   const PathV background = broadcast3<PathF>(scene.shading.background);
   for (int i = 0; i < rays.count; i += widest) {
     const std::uint32_t bits = hit_bits(rays, scratch.hits, i);
-    const int live = rays.count - i;
-    const std::uint32_t in_batch = live >= widest ? (1U << (widest - 1)) * 2U - 1U : (1U << live) - 1U;
+    const std::uint32_t in_batch = lanes_in(rays.count - i);
     if (bits != in_batch) accumulate(rays, load_weight(rays, i), background, in_batch & ~bits, i, scratch);
     scratch.surface.shaded[i / widest] = 0;
     if (bits == 0) continue;
