@@ -14,9 +14,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 
 inline constexpr int beam_groups = 4;
 inline constexpr int beam_size = beam_groups * group_size;
-// Numbers larger than this, or smaller than its inverse, are no business of beams: products of three must not
-// overflow. Nor are origins so far away that the scene's size is lost in their rounding.
-inline constexpr float beam_limit = 1e12F;
+// Origins so far away that the scene's size is lost in their rounding are no business of beams.
 inline constexpr float far_origin = 64.0F; // scenes
 
 // The rays as lines of the plane: where they are at depth 0 and how they move. Rays that take no part are
@@ -98,7 +96,7 @@ FASTRT_INLINE std::uint32_t place_rays(const RayColumns& rays, int first, int k,
   const PacketF dir_x = load<PacketF>(rays.dir[beam.x] + i), dir_y = load<PacketF>(rays.dir[beam.y] + i);
   const PacketF scale = flip(load<PacketF>(rays.dir[beam.z] + i), sign), inverse = PacketF(1.0F) / scale;
   const PacketM forward = (PacketF(2.0F) * scale > max(abs(dir_x), abs(dir_y))) &
-                          (scale > PacketF(1.0F / beam_limit)) & (scale < PacketF(beam_limit));
+                          (scale > PacketF(1.0F / length_limit)) & (scale < PacketF(length_limit));
   bits &= to_bits(forward);
   const PacketM mask = from_bits<widest>(bits);
   const PacketF none(__builtin_nanf(""));
@@ -228,8 +226,7 @@ FASTRT_INLINE BeamRest make_beam(const GeometryView& scene, const RayBatch& rays
     depth = least < depth ? least : depth;
   }
   const float size = reduce_max(largest_origin);
-  if (!(size <= far_origin * scene.largest_coordinate && scene.largest_coordinate < beam_limit &&
-        scene.largest_coordinate > 1.0F / beam_limit))
+  if (!(size <= far_origin * scene.largest_coordinate && is_usual_length(scene.largest_coordinate)))
     return {all, 0};
   beam.padding = 4.0F * box_padding * (size > scene.largest_coordinate ? size : scene.largest_coordinate);
   set_depth(beam, count, depth);

@@ -91,10 +91,9 @@ FASTRT_INLINE bool leave_together(const RayBatch& rays, int g, std::uint32_t liv
 static bool trace_pencils(const GeometryView& scene, const RayBatch& rays, RayBits& looking,
                           HitBatch& hits) noexcept {
   LiveRays live = find_live_rays(rays);
-  if (live.first < 0 || live.backwards) return false;
+  if (live.first < 0 || live.backwards || live.extreme) return false;
   const float most = largest_origin(rays, live), size = larger(most, scene.largest_coordinate);
-  if (!(most <= far_origin * scene.largest_coordinate && size < beam_limit && size > 1.0F / beam_limit))
-    return false;
+  if (!(most <= far_origin * scene.largest_coordinate && is_usual_length(size))) return false;
   int failures = 0;
   bool some = false;
   for (int g = 0; g < batch_groups && failures < max_pencil_failures; ++g) {

@@ -79,7 +79,9 @@ FASTRT_INLINE Rectangles<PacketF> bound_perspective(const ProjectedCorners& p, c
   const Rectangles<PacketF> r = bound_corners(p, depths);
   const PacketF one(1.0F), x = (abs(r.x0) + abs(r.x1)) + one, y = abs(r.y0) + abs(r.y1), out = x + y;
   const PacketF width = r.x1 - r.x0, height = r.y1 - r.y0, extent = width + height;
-  const PacketF share = cull_mul_add(extent + out, cull_mul_sub(far, scale, one), extent);
+  // (By rounding a triangle that is tiny as seen from here may end before it begins.)
+  const PacketF deep = max(cull_mul_sub(far, scale, one), PacketF(0.0F));
+  const PacketF share = cull_mul_add(extent + out, deep, extent);
   // A hit may lie outside its triangle by rounding: by a share of the plane, and by the padding in space.
   const PacketF margin = cull_mul_add(padding, scale, PacketF(rectangle_margin)) +
                          beyond_edges(p, max(width, height) * (out * PacketF(edge_share)), share);
@@ -95,7 +97,7 @@ FASTRT_INLINE Rectangles<PacketF> bound_perspective(const ProjectedCorners& p, c
   const V3<PacketF> ab = b - a, ac = c - a;
   const PacketF edge = max(largest(ab), largest(ac)) * padding, volume = abs(dot(a, cross(ab, ac)));
   const PacketF beyond =
-      select(volume > PacketF(0.0F), PacketF(0x1p22F) * (edge * edge) / volume, everywhere);
+      select(volume > PacketF(0.0F), (PacketF(0x1p22F) * edge / volume) * edge, everywhere);
   const PacketF tolerance = negate(PacketF(4.0F) * padding + beyond);
   std::uint32_t within = ~0U;
   for (const ExtentAxis& side : view.sides) {

@@ -6,35 +6,51 @@
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
 
+// Lengths beyond this, or below its inverse, are no business of tiles, pencils and beams: products of three
+// must neither overflow nor vanish.
+inline constexpr float length_limit = 1e12F;
+FASTRT_INLINE bool is_usual_length(float length) {
+  return length < length_limit && length > 1.0F / length_limit;
+}
+
 // Which rays of a batch take part: bit l of word g is ray 16 g + l.
 struct LiveRays {
   std::uint32_t bits[batch_groups];
   int first, last; // a live ray and another one far from it; -1: none
   bool backwards;  // some ray begins before its origin
+  bool extreme;    // some ray begins too far out, or has a direction of no usual length
 };
 
 FASTRT_INLINE LiveRays find_live_rays(const RayBatch& rays) {
   LiveRays live{};
   live.first = live.last = -1;
-  live.backwards = false;
-  const PacketF zero(0.0F);
+  live.backwards = live.extreme = false;
+  // Sums of three parts, of which the largest is to be usual.
+  const PacketF zero(0.0F), most(length_limit), least(4.0F / length_limit);
   const bool one_origin = has_one_origin(rays.shape);
   for (int i = 0; i < rays.count; i += widest) {
     const V3<PacketF> dir = load3<PacketF>(rays.dir_x + i, rays.dir_y + i, rays.dir_z + i);
+    const PacketF length = sum_of_sizes(dir);
     PacketM alive = have_direction(dir) & (load<PacketF>(rays.t_min + i) < load<PacketF>(rays.t_max + i));
-    if (!one_origin)
-      alive = alive & are_finite(load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i));
+    PacketM usual = (length < most) & (length > least);
+    if (!one_origin) {
+      const V3<PacketF> origin = load3<PacketF>(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
+      alive = alive & are_finite(origin);
+      usual = usual & (sum_of_sizes(origin) < most);
+    }
     const std::uint32_t bits = to_bits(alive) & lanes_in(rays.count - i);
     live.bits[i / group_size] |= bits << (i % group_size);
     if (bits == 0) continue;
     if (live.first < 0) live.first = i + __builtin_ctz(bits);
     live.last = i + 31 - __builtin_clz(bits);
     live.backwards = live.backwards || (to_bits(load<PacketF>(rays.t_min + i) < zero) & bits) != 0;
+    live.extreme = live.extreme || (bits & ~to_bits(usual)) != 0;
   }
   if (one_origin && live.first >= 0) {
     const V3<float> origin = ray_origin(rays, live.first);
     const float size = __builtin_fabsf(origin.x) + __builtin_fabsf(origin.y) + __builtin_fabsf(origin.z);
-    if (!(size < __builtin_inff())) return LiveRays{{}, -1, -1, false};
+    if (!(size < __builtin_inff())) return LiveRays{{}, -1, -1, false, false};
+    live.extreme = live.extreme || !(size < length_limit);
   }
   return live;
 }

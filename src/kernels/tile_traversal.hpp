@@ -120,6 +120,11 @@ static TileEnd trace_together(const GeometryView& scene, const RayBatch& rays, H
   return TileEnd::traced;
 }
 
+// Whether what tiles cull by holds for these rays.
+FASTRT_INLINE bool suits_tiles(const GeometryView& scene, const LiveRays& live) {
+  return !live.backwards && !live.extreme && is_usual_length(scene.largest_coordinate);
+}
+
 // Traces the batch as one, or in few parts. Where its rays don't allow that, some of them may have been
 // traced all the same. hits: cleared by the caller.
 template <bool any, class View>
@@ -127,7 +132,7 @@ static TileEnd trace_tile_in(const GeometryView& scene, const RayBatch& rays, Hi
   LiveRays parts[max_tile_splits + 1];
   parts[0] = find_live_rays(rays);
   if (parts[0].first < 0) return TileEnd::traced;
-  if (parts[0].backwards) return TileEnd::beams;
+  if (!suits_tiles(scene, parts[0])) return TileEnd::beams;
   int count = 1, splits = 0;
   while (count != 0) {
     LiveRays others;
@@ -149,7 +154,7 @@ template <bool any, class View>
 static bool trace_dense_tile_in(const GeometryView& scene, const RayBatch& rays, HitBatch& hits) noexcept {
   const LiveRays live = find_live_rays(rays);
   if (live.first < 0) return true;
-  if (live.backwards) return false;
+  if (!suits_tiles(scene, live)) return false;
   TileTraversal<any, View> tile(scene, rays, hits, live);
   tile.view.frame = make_tile_frame(rays, live);
   if (project_batch(scene, rays, live, tile.view.frame, tile.points, tile.view.groups) != Projection::done)

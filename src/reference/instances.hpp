@@ -66,6 +66,27 @@ inline bool is_traceable(const Ray& ray) {
   return ((o.x + o.y) + o.z) * 0.0F == 0.0F && size > 0.0F && size < infinity;
 }
 
+// The coordinates of the point at t. A triangle's are the ray's own, wherever on it the point is taken to be.
+inline Vec2 coordinates_at(const Scene& scene, const Ray& ray, const Hit& hit) {
+  const auto id = static_cast<std::uint32_t>(hit.primitive);
+  const PrimitiveKind kind = scene.kind(id);
+  const std::uint32_t row = id - scene.first_of(kind);
+  const SceneShapes& shapes = scene.shapes();
+  const auto from = [&](const Vec3& point) { return (ray.origin - point) + hit.t * ray.direction; };
+  switch (kind) {
+  case PrimitiveKind::sphere:
+    return coordinates_on_sphere(from(sphere_shape(scene, row).center));
+  case PrimitiveKind::cone:
+    return coordinates_on(shapes.cones[row], from(shapes.cones[row].center));
+  case PrimitiveKind::disk:
+    return coordinates_on(shapes.disks[row], from(shapes.disks[row].center));
+  case PrimitiveKind::polygon:
+    return coordinates_on(shapes.polygons[row], from(shapes.polygons[row].point));
+  default:
+    return {hit.u, hit.v};
+  }
+}
+
 // Keeps the hit of an instance if it is closer than the best so far; at equal t ids decide, and those of
 // instances come after those of primitives. closest: the best hit of the prototype's primitives for a ray in
 // object space.
@@ -83,6 +104,9 @@ void meet_instance(const Scene& scene, const Ray& ray, std::uint32_t instance, H
   // Rounding may have moved the hit out of the box.
   if (hit.t < inside.from) hit.t = inside.from;
   if (hit.t > inside.to) hit.t = inside.to;
+  const Vec2 uv = coordinates_at(scene, inner, hit);
+  hit.u = uv.x;
+  hit.v = uv.y;
   hit.instance = static_cast<std::int32_t>(instance);
   if (hit.t < best.t || (hit.t == best.t && hit.instance < best.instance)) best = hit;
 }

@@ -111,6 +111,13 @@ inline Intersection intersect_triangle(const Ray& ray, const TriangleVertices& t
   return {reached && ray.t_min < t && t < ray.t_max, t, weight_b * scale, weight_c * scale};
 }
 
+// Around the y axis from x on, as from the outside to the right; and from the lowest point up. n: from the
+// centre to the point.
+inline Vec2 coordinates_on_sphere(const Vec3& n) {
+  const float latitude = baseline::shared_turn<baseline::ScalarOps>(n.y, std::sqrt(n.x * n.x + n.z * n.z));
+  return {turn_of(-n.z, n.x), 0.5F + 2.0F * latitude};
+}
+
 // Lecture notes, 11.3.3, in the stable form of Haines, Guenther & Akenine-Moeller (Ray Tracing Gems, ch. 7,
 // 2019): the discriminant from the point of the line that is closest to the centre.
 inline Intersection intersect_sphere(const Ray& ray, const SphereShape& sphere) {
@@ -131,10 +138,8 @@ inline Intersection intersect_sphere(const Ray& ray, const SphereShape& sphere) 
   const float t = near > ray.t_min ? near : far;
   const bool hit = ray.t_min < t && t < ray.t_max;
   if (!hit) return {false, t, 0, 0};
-  // Around the y axis from x on, as from the outside to the right; and from the lowest point up.
-  const Vec3 n = f + t * d;
-  const float latitude = baseline::shared_turn<baseline::ScalarOps>(n.y, std::sqrt(n.x * n.x + n.z * n.z));
-  return {true, t, turn_of(-n.z, n.x), 0.5F + 2.0F * latitude};
+  const Vec2 uv = coordinates_on_sphere(f + t * d);
+  return {true, t, uv.x, uv.y};
 }
 
 inline Intersection intersect(const Ray& ray, const Scene& scene, std::uint32_t primitive) {
