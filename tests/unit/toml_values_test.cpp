@@ -67,6 +67,17 @@ TEST(TomlValues, WhatIsNoTomlHasAPlace) {
   EXPECT_EQ(texts.error("# nothing\n"), "");
 }
 
+// What toml++ took for impossible, only UBSan sees.
+TEST(TomlValues, LettersBeyondAsciiAreNoSpacesAndNoKeys) {
+  for (const char* text : {"é = 1", "a é= 1", "[é]", "é"})
+    EXPECT_TRUE(contains(TomlTexts().error(text), "t.toml:1:")) << text;
+  for (const char* text : {"a = \"\"\"b \\\n  é\"\"\"", "a = 'b é'", "a = \"\"\"\nb é\"\"\" # é"}) {
+    const TomlTable root = parse_toml(text, "t");
+    ASSERT_EQ(root.size(), 1U) << text;
+    EXPECT_EQ(*root[0].node.text(), "b é") << text;
+  }
+}
+
 TEST(TomlValues, DeepNestingEnds) {
   TomlTexts texts;
   EXPECT_NE(texts.error("a = " + std::string(100000, '[')), "");
