@@ -195,6 +195,7 @@ void NffReader::read_polygon(bool is_patch) {
     warn("empty polygon", "a polygon without area is left out");
     break;
   }
+  for (const TriangleFault fault : scene_.faults()) warn(kind_of(fault), message_of(fault));
 }
 
 } // namespace

@@ -107,6 +107,11 @@ void NffScene::push_triangles(std::span<const Vec3> vertices, std::uint32_t firs
   };
   TriangleColumns& t = desc_.triangles;
   for (const auto& [a, b, c] : triangles_) {
+    const TriangleFault fault = fault_of_triangle(vertices[a], vertices[b], vertices[c]);
+    if (fault != TriangleFault::none) {
+      faults_.push_back(fault);
+      continue;
+    }
     t.v0.push_back(first + a);
     t.v1.push_back(first + b);
     t.v2.push_back(first + c);
@@ -119,6 +124,7 @@ void NffScene::push_triangles(std::span<const Vec3> vertices, std::uint32_t firs
 }
 
 NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
+  faults_.clear();
   const std::uint32_t first = push_positions(vertices);
   if (vertices.size() == 3) {
     const glm::dvec3 a(vertices[0]), b(vertices[1]), c(vertices[2]);
@@ -148,6 +154,7 @@ NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
 }
 
 NffScene::Found NffScene::add_patch(std::span<const Vec3> vertices, std::span<const Vec3> normals) {
+  faults_.clear();
   push_triangles(vertices, push_positions(vertices), normals);
   return Found::good;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/load/polygon.hpp"
+#include "src/load/triangle_fault.hpp"
 
 #include <fastrt/scene.hpp>
 
@@ -38,6 +39,8 @@ public:
   enum class Found { good, bent, empty };
   Found add_polygon(std::span<const Vec3> vertices);
   Found add_patch(std::span<const Vec3> vertices, std::span<const Vec3> normals);
+  // Why triangles of the last polygon or patch were left out, one each.
+  std::span<const TriangleFault> faults() const { return faults_; }
   // The end of the file.
   SceneDesc finish();
 
@@ -52,6 +55,7 @@ private:
   std::vector<std::size_t> dim_lights_; // lights without an intensity of their own
   PolygonTriangulator triangulator_;
   std::vector<PolygonTriangulator::Triangle> triangles_;
+  std::vector<TriangleFault> faults_;
   bool has_normals_ = false;
 };
 

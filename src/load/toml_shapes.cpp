@@ -2,6 +2,7 @@
 // [[sphere]], [[cylinder]] and so on: one row of the scene each.
 #include "src/load/scene_append.hpp"
 #include "src/load/toml_scene.hpp"
+#include "src/load/triangle_fault.hpp"
 #include "src/scene/shapes.hpp"
 
 #include <utility>
@@ -118,6 +119,22 @@ void add_polygon(const TomlFile&, const TomlFields& fields, TomlScene& scene) {
 constexpr std::uint32_t cube_faces[6][4] = {{0, 4, 6, 2}, {5, 1, 3, 7}, {0, 1, 5, 4},
                                             {6, 7, 3, 2}, {1, 0, 2, 3}, {4, 5, 7, 6}};
 
+// Corner k of a face has the cube's texture coordinates k.
+void push_cube_face(const std::uint32_t (&face)[4], const TomlFields& fields, SceneDesc& cube,
+                    TomlScene& scene) {
+  TriangleColumns& t = cube.triangles;
+  for (const std::uint32_t k : {1U, 2U}) {
+    const TriangleFault fault =
+        fault_of_triangle(cube.positions[face[0]], cube.positions[face[k]], cube.positions[face[k + 1]]);
+    if (fault != TriangleFault::none) {
+      scene.warn(fields.file(), fields.place(), kind_of(fault), message_of(fault));
+      continue;
+    }
+    t.v0.push_back(face[0]), t.v1.push_back(face[k]), t.v2.push_back(face[k + 1]);
+    t.t0.push_back(0), t.t1.push_back(k), t.t2.push_back(k + 1);
+  }
+}
+
 void add_cube(const TomlFile&, const TomlFields& fields, TomlScene& scene) {
   Vec3 lower(-1.0F), upper(1.0F);
   fields.read_vector("lower", lower);
@@ -129,12 +146,7 @@ void add_cube(const TomlFile&, const TomlFields& fields, TomlScene& scene) {
     cube.positions.push_back({(i & 1U) != 0 ? upper.x : lower.x, (i & 2U) != 0 ? upper.y : lower.y,
                               (i & 4U) != 0 ? upper.z : lower.z});
   cube.uvs = {{0, 1, 1, 0}, {0, 0, 1, 1}};
-  TriangleColumns& t = cube.triangles;
-  for (const auto& face : cube_faces)
-    for (const std::uint32_t k : {1U, 2U}) {
-      t.v0.push_back(face[0]), t.v1.push_back(face[k]), t.v2.push_back(face[k + 1]);
-      t.t0.push_back(0), t.t1.push_back(k), t.t2.push_back(k + 1);
-    }
+  for (const auto& face : cube_faces) push_cube_face(face, fields, cube, scene);
   const std::uint32_t material = scene.material_of(fields);
   append_scene(scene.desc, std::move(cube));
   const auto name = fields.find("name");

@@ -123,6 +123,16 @@ TEST(Nff, PolygonsStayPolygonsAndPatchesBecomeTriangles) {
   EXPECT_NO_THROW(Scene{desc});
 }
 
+TEST(Nff, TrianglesThatNoRayMeetsAreSkipped) {
+  const Read result = read(fill + "p 4 0 0 0 1e13 0 0 1e13 1e13 1e12 0 1e13 0\ns 0 0 0 1\n"
+                                  "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1\n");
+  EXPECT_EQ(result.desc.triangles.size(), 1U);
+  EXPECT_EQ(result.diagnostics.lines(),
+            (std::vector<std::string>{"t.nff:2:1: a polygon is not flat: it is cut into triangles",
+                                      "t.nff:2:1: triangle too large for single precision skipped",
+                                      "t.nff:2:1: triangle too large for single precision skipped"}));
+}
+
 TEST(Nff, FilesOfStatementsWithoutObjectsAreScenes) {
   EXPECT_EQ(read("").desc.object_names.size(), 0U);
   for (const char* text : {"", "# nothing", "b 0 0 0 l 1 2 3"}) {
@@ -158,6 +168,8 @@ TEST(Nff, WarningsNameTheirPlaceAndStrictMakesThemErrors) {
       {fill + "c 1 1 1 1 1 1 1 1", "t.nff:2:1: a cone without length or radius is left out"},
       {fill + "p 3 0 0 0 1 1 1 2 2 2", "t.nff:2:1: a polygon without area is left out"},
       {fill + "p 4 0 0 0 1 0 0 1 1 1 0 1 0", "t.nff:2:1: a polygon is not flat: it is cut into triangles"},
+      {fill + "p 3 0 0 0 1e13 0 0 0 1e13 0", "t.nff:2:1: triangle too large for single precision skipped"},
+      {fill + "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 2 0 0 0 0 1", "t.nff:2:1: triangle without area skipped"},
       {"f 1 1 1 1 1 1 0.5 0", "t.nff:1:1: f: the index of refraction must be greater than 0: 1 is taken"}};
   for (const auto& [text, message] : cases) {
     EXPECT_EQ(warning_of(text), message);

@@ -200,6 +200,11 @@ TEST(TomlShapes, FacesThatNoRayMeetsAreSkipped) {
   EXPECT_EQ(texts.without_folder(lines[1]), "t.toml:3:32: triangle too large for single precision skipped");
   EXPECT_TRUE(test::contains(lines[2], "t.toml:3:43: the polygon crosses itself or has no area"));
   EXPECT_NO_THROW(Scene{loaded.desc});
+  const Loaded cubes = texts.read("[[cube]]\n[[cube]]\nlower = [0, 0, 0]\nupper = [1e13, 1e13, 1]\n");
+  EXPECT_EQ(cubes.desc.triangles.size(), 12U + 8U);
+  ASSERT_EQ(cubes.diagnostics.count(), 4U);
+  EXPECT_EQ(texts.without_folder(cubes.warnings()[0]),
+            "t.toml:2:1: triangle too large for single precision skipped");
   LoadOptions strict;
   strict.strict = true;
   EXPECT_EQ(texts.error(mesh + "faces = [[0, 0, 1]]", strict), "t.toml:3:10: triangle without area skipped");
