@@ -45,7 +45,7 @@ public:
       toml_fail(file_.name, entry.node.place, "prototype: expected tables [prototype.NAME]");
     const auto begin = row_counts(scene_.desc);
     read_lists(entry, false);
-    if (row_counts(scene_.desc) != begin) parts_.push_back({scene_.add_prototype(begin), TomlMap{}});
+    if (row_counts(scene_.desc) != begin) push({scene_.add_prototype(begin), TomlMap{}});
     read_lists(entry, true);
     if (parts_.empty())
       toml_fail(file_.name, entry.node.place, "prototype " + in_quotes(entry.key) + " holds nothing");
@@ -94,16 +94,23 @@ private:
     }
   }
 
+  // Before memory is taken for them. All prototypes count, for all are kept.
   void check_room(const TomlFields& fields, std::size_t count) const {
-    if (count > most_parts - parts_.size())
-      fields.fail(fields.place(), "a prototype has more than " + std::to_string(most_parts) + " parts");
+    if (scene_.prototype_parts + count > most_parts)
+      fields.fail(fields.place(),
+                  "the prototypes have more than " + std::to_string(most_parts) + " parts in all");
+  }
+
+  void push(const TomlPart& part) {
+    parts_.push_back(part);
+    ++scene_.prototype_parts;
   }
 
   void push(TomlPart part, const TomlMap& map, std::uint32_t material, std::uint32_t object) {
     part.to_whole = after(map, part.to_whole);
     if (material != no_index) part.material = material;
     if (object != no_index) part.object = object;
-    parts_.push_back(part);
+    push(part);
   }
 
   const TomlFile& file_;

@@ -81,6 +81,7 @@ public:
   SceneFolder confines;
   MaterialIds materials; // those that scene.toml may name
   std::map<std::string, std::vector<TomlPart>, std::less<>> prototypes;
+  std::size_t prototype_parts = 0; // of all prototypes
   std::vector<TomlTexture> textures;
   std::optional<std::filesystem::path> base; // of a side-car: the file whose scene it completes
   std::size_t files = 0;                     // of meshes, that were read

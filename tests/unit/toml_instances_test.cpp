@@ -189,7 +189,14 @@ TEST(TomlInstances, PrototypesThatGrowByPowersEnd) {
   for (int i = 1; i < 20; ++i)
     text += "[prototype.p" + std::to_string(i) + "]\ninstance = [{ of = 'p" + std::to_string(i - 1) +
             "', repeat = { count = 1000, step = [1, 0, 0] } }]\n";
-  EXPECT_EQ(texts.error(text), "t.toml:8:13: a prototype has more than 4194304 parts");
+  EXPECT_EQ(texts.error(text), "t.toml:8:13: the prototypes have more than 4194304 parts in all");
+}
+
+TEST(TomlInstances, ManyLargePrototypesEnd) {
+  TomlTexts texts;
+  EXPECT_EQ(texts.error("[prototype.a]\nsphere = [{ repeat = { count = 2100000, step = [3, 0, 0] } }]\n"
+                        "[prototype.b]\ninstance = [{ of = 'a' }]\n"),
+            "t.toml:4:13: the prototypes have more than 4194304 parts in all");
 }
 
 } // namespace
