@@ -79,6 +79,11 @@ public:
     resize(size);
     for (std::size_t i = old_size; i < size; ++i) data_[i] = value;
   }
+  // As resize, for columns that grow step by step.
+  void extend(std::size_t size, T value) {
+    make_room(size);
+    resize(size, value);
+  }
   void push_back(T value) {
     if (size_ == capacity_) reallocate(capacity_ < 8 ? 16 : capacity_ + capacity_ / 2);
     data_[size_++] = value;
@@ -89,8 +94,7 @@ public:
   }
   void append(const T* values, std::size_t count) {
     const std::size_t old_size = size_;
-    const std::size_t grown = capacity_ + capacity_ / 2; // many small pieces must not be copied each time
-    if (old_size + count > capacity_) reallocate(old_size + count > grown ? old_size + count : grown);
+    make_room(old_size + count);
     size_ = old_size + count;
     if (count != 0) std::memcpy(data_ + old_size, values, count * sizeof(T));
   }
@@ -107,6 +111,12 @@ public:
   }
 
 private:
+  // Grows by half at least, for many small steps must not copy everything each time.
+  void make_room(std::size_t size) {
+    const std::size_t grown = capacity_ + capacity_ / 2;
+    if (size > capacity_) reallocate(size > grown ? size : grown);
+  }
+
   void release() noexcept { free_column(data_, bytes()); }
 
   void reallocate(std::size_t capacity) {

@@ -38,7 +38,7 @@ void append_owners(Columns& to, const Columns& from, const Shifts& shifts) {
 }
 
 void pad(Indices& column, std::size_t size) {
-  if (column.size() < size) column.resize(size, no_index);
+  if (column.size() < size) column.extend(size, no_index);
 }
 
 void append_triangles(SceneDesc& to, const SceneDesc& from, const Shifts& shifts) {
@@ -119,7 +119,7 @@ void pad_uvs(SceneDesc& desc) {
 void pad_colors(SceneDesc& desc) {
   Columns3& colors = desc.colors;
   for (auto* column : {&colors.x, &colors.y, &colors.z})
-    if (column->size() < desc.positions.size()) column->resize(desc.positions.size(), 1.0F);
+    if (column->size() < desc.positions.size()) column->extend(desc.positions.size(), 1.0F);
 }
 
 void append_scene(SceneDesc& to, SceneDesc from) {

@@ -151,8 +151,8 @@ void add_cube(const TomlFile&, const TomlFields& fields, TomlScene& scene) {
   append_scene(scene.desc, std::move(cube));
   const auto name = fields.find("name");
   const std::uint32_t object = scene.add_object(name ? name->text() : scene.next_name("cube"));
-  scene.desc.triangles.material.resize(scene.desc.triangles.size(), material);
-  scene.desc.triangles.object.resize(scene.desc.triangles.size(), object);
+  scene.desc.triangles.material.extend(scene.desc.triangles.size(), material);
+  scene.desc.triangles.object.extend(scene.desc.triangles.size(), object);
 }
 
 } // namespace

@@ -81,6 +81,24 @@ TEST(TomlShapes, CubesTurnOutwards) {
   EXPECT_TRUE(test::is_sound(desc));
 }
 
+TEST(TomlShapes, ManyCubesLeaveRoomForMore) {
+  TomlTexts texts;
+  std::string text = "[[mesh]]\npoints = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]\nfaces = [[0, 1, 2]]\n"
+                     "normals = [[0, 0, 1], [0, 0, 1], [0, 1, 1]]\ncolors = [1, 1, 1]\n";
+  for (int i = 0; i < 100; ++i) text += "[[cube]]\n";
+  const SceneDesc desc = texts.desc(text);
+  const TriangleColumns& t = desc.triangles;
+  ASSERT_EQ(t.size(), 1201U);
+  // Columns that have none would be copied once for each cube.
+  const auto has_room = [](const auto& column) {
+    return column.bytes() > (column.size() + column_padding) * sizeof(column[0]);
+  };
+  for (const auto* column : {&t.v0, &t.n0, &t.t0, &t.material, &t.object}) EXPECT_TRUE(has_room(*column));
+  EXPECT_TRUE(has_room(desc.colors.x));
+  EXPECT_EQ(t.n2[1200], no_index);
+  EXPECT_EQ(desc.colors[desc.positions.size() - 1], Vec3(1.0F));
+}
+
 TEST(TomlShapes, MeshesThatAreWrittenOut) {
   TomlTexts texts;
   const SceneDesc desc =
