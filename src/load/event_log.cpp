@@ -49,6 +49,7 @@ void EventReport::take(EventLog log) {
   for (auto& event : log.events_) events_.push_back(std::move(event));
   for (const auto& [kind, count] : log.counts_)
     if (count > Diagnostics::kept_per_kind) extra_[kind] += count - Diagnostics::kept_per_kind;
+  for (const auto& [kind, count] : log.extra_) extra_[kind] += count;
 }
 
 void EventReport::sort() {
@@ -97,7 +98,7 @@ void EventReport::pass_on(const Source& source, EventLog& log, std::uint64_t off
     log.failed_ = log.failed_ || event.error;
     log.events_.push_back(std::move(event));
   }
-  for (const auto& [kind, count] : extra_) log.counts_[kind] += Diagnostics::kept_per_kind + count;
+  for (const auto& [kind, count] : extra_) log.extra_[kind] += count;
 }
 
 namespace {

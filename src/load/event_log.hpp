@@ -53,6 +53,7 @@ private:
   std::vector<Once> once_;
   std::set<std::pair<std::string, std::string>> keys_;
   std::map<std::string, std::size_t> counts_;
+  std::map<std::string, std::size_t> extra_; // of other files, counted only
   bool failed_ = false;
 };
 

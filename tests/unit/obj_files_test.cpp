@@ -100,6 +100,20 @@ TEST(ObjFiles, MissingMaterialFilesAreWarnings) {
   EXPECT_EQ(load_error(scene, strict), loaded.warnings()[0]);
 }
 
+TEST(ObjFiles, WarningsOfSeveralMaterialFilesAreCountedOnceEach) {
+  const TemporaryFolder folder;
+  std::string libraries, statements;
+  for (int i = 0; i < 15; ++i) statements += "Kd -1 0 0\n";
+  for (const char* name : {"a.mtl", "b.mtl", "c.mtl"}) {
+    folder.write(name, "newmtl " + std::string(name) + '\n' + statements);
+    libraries += "mtllib " + std::string(name) + '\n';
+  }
+  const Loaded loaded = load(folder.write("s.obj", libraries + triangle));
+  EXPECT_EQ(loaded.diagnostics.count(), 45U);
+  ASSERT_EQ(loaded.warnings().size(), 11U);
+  EXPECT_TRUE(contains(loaded.warnings()[10], "35 more: ")) << loaded.warnings()[10];
+}
+
 TEST(ObjFiles, MaterialFilesOutsideTheFolderAreRefused) {
   const TemporaryFolder folder;
   folder.write("outside.mtl", "newmtl one\n");
