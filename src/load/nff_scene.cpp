@@ -32,14 +32,15 @@ Material nff_material(const NffFill& fill) {
 }
 
 void NffScene::set_fill(const NffFill& fill) {
+  const std::array<float, 8> numbers = {fill.color.x,  fill.color.y, fill.color.z,       fill.diffuse,
+                                        fill.specular, fill.shine,   fill.transmittance, fill.ior};
+  const auto next = static_cast<std::uint32_t>(desc_.materials.size());
+  const std::uint32_t known = fills_.try_emplace(numbers, next).first->second;
   // Bodies of glass are told apart by their materials, so each keeps its own.
-  const auto known = std::find(fills_.begin(), fills_.end(), fill);
-  material_ = static_cast<std::uint32_t>(known - fills_.begin());
-  if (known == fills_.end() || fill.transmittance > 0.0F) {
-    material_ = static_cast<std::uint32_t>(fills_.size());
-    fills_.push_back(fill);
+  material_ = fill.transmittance > 0.0F ? next : known;
+  if (material_ == next) {
     desc_.materials.push_back(nff_material(fill));
-    desc_.materials.back().name = "f" + std::to_string(fills_.size());
+    desc_.materials.back().name = "f" + std::to_string(desc_.materials.size());
   }
   desc_.object_names.push_back("f" + std::to_string(desc_.object_names.size() + 1));
 }

@@ -7,7 +7,10 @@
 
 #include <fastrt/scene.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -17,7 +20,6 @@ namespace fastrt {
 struct NffFill {
   Vec3 color{1.0F};
   float diffuse = 0.8F, specular = 0, shine = 1, transmittance = 0, ior = 1;
-  bool operator==(const NffFill&) const = default;
 };
 
 // What the renderer makes of it (docs/nff.md).
@@ -50,7 +52,7 @@ private:
   void push_triangles(std::span<const Vec3> vertices, std::uint32_t first, std::span<const Vec3> normals);
 
   SceneDesc desc_;
-  std::vector<NffFill> fills_; // of each material
+  std::map<std::array<float, 8>, std::uint32_t> fills_; // the first material of each fill
   std::uint32_t material_ = 0;
   std::vector<std::size_t> dim_lights_; // lights without an intensity of their own
   PolygonTriangulator triangulator_;

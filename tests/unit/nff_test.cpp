@@ -98,6 +98,19 @@ TEST(Nff, MaterialsAreOfTheFormatsOwnShading) {
   EXPECT_EQ(desc.spheres.object[2], 2U);
 }
 
+TEST(Nff, ManyFillsAreToldApart) {
+  std::string text;
+  for (int round = 0; round < 2; ++round)
+    for (int i = 0; i < 100000; ++i) text += "f " + std::to_string(i) + " 1 1 1 0 0 0 0\ns 0 0 0 1\n";
+  text += "f -0 1 1 1 0 0 0 0\ns 0 0 0 1\nf 0 1 1 1 0 0 1 1\ns 0 0 0 1\nf 0 1 1 1 0 0 1 1\ns 0 0 0 1\n";
+  const SceneDesc desc = read(text).desc;
+  EXPECT_EQ(desc.materials.size(), 100002U);
+  EXPECT_EQ(desc.spheres.material[99999], 99999U);
+  EXPECT_EQ(desc.spheres.material[199999], 99999U);
+  EXPECT_EQ(desc.spheres.material[200000], 0U);
+  EXPECT_EQ(desc.spheres.material[200002], 100001U); // glass, each its own
+}
+
 TEST(Nff, ConesMayStandOnOneLineOrTwo) {
   const SceneDesc desc =
       read(fill + "c 0 0 0 1 0 2 0 0.5\nc\n1 1 1 0.25\n2 2 2 0.25\nc 0 0 0 -1 0 1 0 -1").desc;
