@@ -14,6 +14,7 @@ namespace fastrt {
 namespace {
 
 constexpr std::size_t most_lines = 100000;
+constexpr std::size_t most_elements = 1024;
 
 class HeaderParser {
 public:
@@ -93,6 +94,8 @@ private:
     const auto [stop, error] = std::from_chars(count.data(), end, element.count);
     if (error != std::errc() || stop != end)
       fail(words.position(), in_quotes(count) + " is no number of elements");
+    if (header_.elements.size() == most_elements)
+      fail(0, "the header has more than " + std::to_string(most_elements) + " elements");
     for (const PlyElement& other : header_.elements)
       if (other.name == element.name) fail(words.position(), "element " + in_quotes(element.name) + " twice");
     header_.elements.push_back(std::move(element));

@@ -172,6 +172,10 @@ TEST(PlyReader, WhatCantBeReadNamesItsPlace) {
       {with(good, "4 0 1 2 3", "65536 0 1"), "t.ply:14:6: a face has at most 65535 vertices"}};
   for (const auto& [text, message] : cases)
     EXPECT_EQ(error_of(text).rfind(message, 0), 0U) << message << ", but: " << error_of(text);
+  std::string many;
+  for (int i = 0; i < 1023; ++i) many += "element e" + std::to_string(i) + " 0\n";
+  EXPECT_EQ(error_of(with(good, "element face", many + "element face")),
+            "t.ply:1031:1: the header has more than 1024 elements");
   const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
                              "property float y\nproperty float z\nelement face 1\n"
                              "property list uchar int vertex_indices\nend_header\n";
