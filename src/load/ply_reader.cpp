@@ -83,6 +83,7 @@ private:
   }
 
   void skip(const PlyElement& element, PlyCursor& cursor) {
+    if (element.properties.empty()) return; // billions of such rows may be in a file of no size
     for (std::uint64_t i = 0; i < element.count; ++i)
       for (const PlyProperty& property : element.properties) cursor.skip(property);
   }

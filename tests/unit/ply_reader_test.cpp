@@ -188,6 +188,13 @@ TEST(PlyReader, WhatCantBeReadNamesItsPlace) {
       "t.ply: byte " + face + ": index 9 refers to no vertex; there are 1");
 }
 
+TEST(PlyReader, RowsWithoutPropertiesTakeNoTime) {
+  std::string header = plain_header;
+  for (int i = 0; i < 1000; ++i)
+    header.insert(header.find("element face"), "element e" + std::to_string(i) + " 2147483647\n");
+  EXPECT_EQ(read(header + square + "4 0 1 2 3").desc.triangles.size(), 2U);
+}
+
 TEST(PlyReader, OddFacesAreWarnedAbout) {
   std::string header = plain_header;
   header.replace(header.find("face 1"), 6, "face 3");
