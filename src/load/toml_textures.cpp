@@ -74,23 +74,24 @@ void wish_for(const TomlFile& file, const TomlValue& name, TomlTexture& wish, co
   wish.fault = texture_fault(answer.finding);
 }
 
-// Materials do without a texture that has no picture.
-void leave_out(std::uint32_t texture, SceneDesc& desc) {
+// Materials do without textures that have no picture.
+void leave_out(const std::vector<bool>& without_picture, SceneDesc& desc) {
   for (Material& m : desc.materials)
     for (std::uint32_t* slot : {&m.ambient_texture, &m.diffuse_texture, &m.specular_texture,
                                 &m.emission_texture, &m.opacity_texture, &m.bump_texture})
-      if (*slot == texture) *slot = no_texture;
+      if (*slot != no_texture && without_picture[*slot]) *slot = no_texture;
 }
 
-void take_picture(const TomlTexture& wish, const TextureFile& picture, SceneDesc& desc) {
+// False if it is to be left out.
+bool take_picture(const TomlTexture& wish, const TextureFile& picture, SceneDesc& desc) {
   Texture& texture = desc.textures[wish.texture];
   texture.image = picture.image;
   if (picture.image != nullptr) {
     if (wish.may_be_alpha && picture.image->has_alpha()) texture.channel = {0, 0, 0, 1};
-    return;
+    return true;
   }
   texture = missing_texture(texture.name);
-  if (!wish.shows_fault) leave_out(wish.texture, desc);
+  return wish.shows_fault;
 }
 
 } // namespace
@@ -134,14 +135,16 @@ void load_toml_textures(TomlScene& scene) {
       all[i]->second = read_texture(all[i]->first.first, all[i]->first.second);
     });
   std::set<std::pair<std::filesystem::path, TextureCode>> told; // once for each file
+  std::vector<bool> without_picture(scene.desc.textures.size());
   for (const TomlTexture& wish : scene.textures) {
     const bool found = wish.fault.empty();
     const TextureFile picture = found ? files.at({wish.path, wish.code}) : TextureFile{nullptr, wish.fault};
     if (!picture.fault.empty() && (!found || told.emplace(wish.path, wish.code).second))
       scene.warn(wish.file, wish.place, "texture",
                  "texture " + in_quotes(scene.desc.textures[wish.texture].name) + ' ' + picture.fault);
-    take_picture(wish, picture, scene.desc);
+    without_picture[wish.texture] = !take_picture(wish, picture, scene.desc);
   }
+  leave_out(without_picture, scene.desc);
 }
 
 } // namespace fastrt

@@ -223,6 +223,20 @@ TEST(TomlSettings, TexturesOfFilesAndOfNone) {
   EXPECT_NO_THROW(Scene{desc});
 }
 
+TEST(TomlSettings, ManyMaterialsDoWithoutTheirMissingTextures) {
+  TomlTexts texts;
+  texts.folder().write("t.pgm", "P2 1 1 255\n255\n");
+  std::string text;
+  for (int i = 0; i < 20000; ++i)
+    text += "[material.m" + std::to_string(i) + "]\nspecular_texture = 'none.png'\ndiffuse_texture = '" +
+            (i % 2 == 0 ? "t.pgm'\n" : "none.png'\n");
+  const SceneDesc desc = texts.desc(text + "[[sphere]]\n");
+  for (std::size_t i = 0; i < 20000; ++i) {
+    ASSERT_EQ(desc.materials[i].specular_texture, no_texture);
+    ASSERT_EQ(desc.textures[desc.materials[i].diffuse_texture].image != nullptr, i % 2 == 0);
+  }
+}
+
 TEST(TomlSettings, TexturesThatCantBeUsed) {
   TomlTexts texts;
   texts.folder().write("text.png", "no picture");
