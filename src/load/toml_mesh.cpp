@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <numeric>
 #include <utility>
 
 namespace fastrt {
@@ -38,17 +40,21 @@ void for_each_kind(SceneDesc& desc, const Rows& from, Change change) {
 void replace_materials(const TomlValue& value, const Rows& rows, TomlScene& scene) {
   const TomlTable* table = value.node().table();
   if (table == nullptr) value.fail("expected a table, found " + describe(value.node()));
+  const std::vector<Material>& materials = scene.desc.materials;
+  std::map<std::string_view, std::size_t> own; // the last of a name
+  for (std::size_t i = rows.materials; i < materials.size(); ++i) own.insert_or_assign(materials[i].name, i);
+  std::vector<std::uint32_t> now(materials.size() - rows.materials);
+  std::iota(now.begin(), now.end(), static_cast<std::uint32_t>(rows.materials));
   for (const TomlEntry& entry : *table) {
     const std::uint32_t other = scene.material(TomlValue(value.file(), entry.node, entry.key));
-    std::uint32_t own = no_index;
-    for (std::size_t i = rows.materials; i < scene.desc.materials.size(); ++i)
-      if (scene.desc.materials[i].name == entry.key) own = static_cast<std::uint32_t>(i);
-    if (own == no_index)
+    const auto found = own.find(entry.key);
+    if (found == own.end())
       toml_fail(value.file(), entry.place, "materials: the mesh has no material " + in_quotes(entry.key));
-    for_each_kind(scene.desc, rows, [&](auto& material, auto&, std::size_t first) {
-      std::replace(material.begin() + first, material.end(), own, other);
-    });
+    now[found->second - rows.materials] = other;
   }
+  for_each_kind(scene.desc, rows, [&](auto& material, auto&, std::size_t first) {
+    for (std::size_t i = first; i < material.size(); ++i) material[i] = now[material[i] - rows.materials];
+  });
 }
 
 void override_owners(const TomlFields& fields, const Rows& rows, TomlScene& scene) {

@@ -163,6 +163,26 @@ TEST(TomlShapes, MeshesOfFilesBringTheirMaterials) {
   EXPECT_NO_THROW(Scene{desc});
 }
 
+TEST(TomlShapes, ManyMaterialsOfAFileAreReplaced) {
+  TomlTexts texts;
+  std::string library, object = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n", text, replaced;
+  for (int i = 0; i < 5000; ++i) {
+    const std::string number = std::to_string(i);
+    library += "newmtl own" + number + '\n';
+    object += "usemtl own" + number + "\nf 1 2 3\n";
+    text += "[material.m" + number + "]\n";
+    if (i % 2 == 0) replaced += "own" + number + " = 'm" + number + "',";
+  }
+  texts.folder().write("m.obj", object);
+  texts.folder().write("m.mtl", library);
+  replaced.pop_back();
+  const SceneDesc desc = texts.desc(text + "[[mesh]]\nfile = 'm.obj'\nmaterials = { " + replaced + " }\n");
+  ASSERT_EQ(desc.triangles.size(), 5000U);
+  for (std::size_t i = 0; i < 5000; ++i)
+    ASSERT_EQ(desc.materials[desc.triangles.material[i]].name,
+              (i % 2 == 0 ? "m" : "own") + std::to_string(i));
+}
+
 TEST(TomlShapes, WhatMakesNoSenseIsRefused) {
   TomlTexts texts;
   texts.folder().write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
