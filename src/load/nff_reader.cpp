@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
 constexpr std::size_t most_pixels_a_side = 65536;
+constexpr std::size_t most_vertices = std::size_t{1} << 24U;
 
 // The file's angle lies between the middles of the outermost pixels, a camera's between their edges.
 float field_of_view(float angle, int rows) {
@@ -175,7 +176,7 @@ void NffReader::read_cone() {
 void NffReader::read_polygon(bool is_patch) {
   need_fill();
   const char* const what = is_patch ? "pp" : "p";
-  const std::size_t count = tokens_.count(what, 3, std::size_t{1} << 24U);
+  const std::size_t count = tokens_.count(what, 3, is_patch ? most_cut_vertices : most_vertices);
   // Two bytes a number at least: a count that can't be true must not take memory.
   if (count > tokens_.left() / (is_patch ? 12 : 6) + 1)
     tokens_.fail("the file ends within " + in_quotes(what));
@@ -194,6 +195,9 @@ void NffReader::read_polygon(bool is_patch) {
   case NffScene::Found::empty:
     warn("empty polygon", "a polygon without area is left out");
     break;
+  case NffScene::Found::too_long:
+    log_.fail(begin_, "a polygon of more than 65535 vertices is not flat");
+    throw NffFailure{};
   }
   for (const TriangleFault fault : scene_.faults()) warn(kind_of(fault), message_of(fault));
 }

@@ -171,6 +171,19 @@ TEST(Nff, ErrorsNameTheirPlace) {
   EXPECT_EQ(error_of("f 1 1 1 -1 0 1 0 1"), "t.nff:1:9: f: Kd, Ks, shine and T must not be negative");
 }
 
+TEST(Nff, LongPolygonsMustBeFlat) {
+  const auto comb = [](int count, int depth) {
+    std::string text = fill + "p " + std::to_string(count + 1) + "\n0 0 0\n";
+    for (int i = 0; i < count; ++i)
+      text += std::to_string(1000 + i % 2 * 1000) + ' ' + std::to_string(i) + ' ' +
+              std::to_string(i % 3 * depth) + '\n';
+    return text;
+  };
+  EXPECT_EQ(error_of(comb(65535, 0)), "");
+  EXPECT_EQ(error_of(comb(65535, 1000)), "t.nff:2:1: a polygon of more than 65535 vertices is not flat");
+  EXPECT_EQ(error_of(fill + "pp 65536"), "t.nff:2:4: pp: '65536' is not a whole number from 3 to 65535");
+}
+
 TEST(Nff, WarningsNameTheirPlaceAndStrictMakesThemErrors) {
   const struct {
     std::string text, message;
