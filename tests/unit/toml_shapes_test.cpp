@@ -221,6 +221,10 @@ TEST(TomlShapes, WhatMakesNoSenseIsRefused) {
             "t.toml:3:17: faces: must be a whole number from 0 to 2");
   EXPECT_EQ(texts.error(points + "faces = [[0, 1]]"),
             "t.toml:3:10: faces: expected the numbers of three points or more, found 2");
+  std::string long_face;
+  for (int i = 0; i < 65536; ++i) long_face += "0,";
+  EXPECT_EQ(texts.error(points + "faces = [[" + long_face + "]]"),
+            "t.toml:3:10: faces: a face has at most 65535 points");
   EXPECT_EQ(texts.error(points + "faces = []"), "t.toml:3:9: faces: expected at least one face");
   EXPECT_EQ(texts.error(points + "faces = [[0, 1, 2]]\nuvs = [[0, 0]]"),
             "t.toml:4:7: uvs: expected one for each of the 3 points, found 1");
