@@ -32,11 +32,12 @@ bool check_size(const PictureFile& file, std::size_t width, std::size_t height, 
   return false;
 }
 
-// Of `pixels` pixels of four codes, of one byte each or two, those that an error has left 0 become opaque.
-inline void fill_gaps(unsigned char* codes, std::size_t pixels, std::size_t code_size) noexcept {
-  constexpr unsigned char nothing[8]{};
-  for (std::size_t i = 0; i < pixels; ++i, codes += 4 * code_size)
-    if (std::memcmp(codes, nothing, 4 * code_size) == 0) std::memset(codes + 3 * code_size, 0xFF, code_size);
+// Makes pixels of four codes, of one byte each or two, black and opaque: those that an error leaves unread.
+inline void blacken(unsigned char* codes, std::size_t pixels, std::size_t code_size) noexcept {
+  for (std::size_t i = 0; i < pixels; ++i, codes += 4 * code_size) {
+    std::memset(codes, 0, 3 * code_size);
+    std::memset(codes + 3 * code_size, 0xFF, code_size);
+  }
 }
 
 } // namespace fastrt

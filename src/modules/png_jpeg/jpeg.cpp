@@ -51,7 +51,7 @@ void catch_errors(Jpeg& jpeg, JpegErrors& errors) {
 struct JpegReader : JpegErrors {
   jpeg_decompress_struct jpeg{};
   unsigned char* rgba = nullptr;
-  std::size_t width = 0, height = 0;
+  std::size_t width = 0, height = 0, rows = 0; // rows: that have been read
   bool is_unusual = false;
 };
 
@@ -73,11 +73,12 @@ bool read(const PictureFile& file, JpegReader& reader) {
   if (reader.is_unusual || !check_size(file, reader.width, reader.height, 4, reader.why)) return false;
   jpeg.out_color_space = JCS_EXT_RGBA;
   jpeg_start_decompress(&jpeg);
-  reader.rgba = static_cast<unsigned char*>(std::calloc(reader.width * reader.height, 4));
+  reader.rgba = static_cast<unsigned char*>(std::malloc(4 * reader.width * reader.height));
   if (reader.rgba == nullptr) ERREXIT1(&jpeg, JERR_OUT_OF_MEMORY, 0);
   while (jpeg.output_scanline < jpeg.output_height) {
     unsigned char* to = reader.rgba + jpeg.output_scanline * 4 * reader.width;
     jpeg_read_scanlines(&jpeg, &to, 1);
+    reader.rows = jpeg.output_scanline;
   }
   jpeg_finish_decompress(&jpeg);
   return jpeg.err->num_warnings == 0;
@@ -158,7 +159,8 @@ bool decode_jpeg(const PictureFile& file, DecodedPicture& picture) noexcept {
   jpeg_destroy_decompress(&reader.jpeg);
   if (!reader.is_unusual) std::memcpy(picture.error, reader.why, sizeof reader.why);
   if (reader.rgba == nullptr) return false;
-  if (!whole) fill_gaps(reader.rgba, reader.width * reader.height, 1);
+  if (!whole)
+    blacken(reader.rgba + 4 * reader.width * reader.rows, reader.width * (reader.height - reader.rows), 1);
   picture.rgba = reader.rgba;
   picture.is_damaged = whole ? 0 : 1;
   picture.width = static_cast<int>(reader.width);

@@ -3,6 +3,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdint>
 #include <cstdlib>
@@ -25,8 +26,8 @@ struct PngReader {
   png_infop info = nullptr;
   Bytes bytes{};
   unsigned char* rgba = nullptr;
-  std::size_t width = 0, height = 0;
-  bool is_deep = false; // 16 bits
+  std::size_t width = 0, height = 0, rows = 0; // rows: that hold pixels
+  bool is_deep = false;                        // 16 bits
   char why[sizeof DecodedPicture::error]{};
 };
 
@@ -62,6 +63,12 @@ unsigned char* codes_of(const PngReader& reader) {
   return reader.rgba + (reader.is_deep ? 2 * channels * reader.width * reader.height : 0);
 }
 
+void blacken_the_rest(PngReader& reader) {
+  const std::size_t code_size = reader.is_deep ? 2 : 1, row = channels * code_size * reader.width;
+  blacken(codes_of(reader) + row * reader.rows, reader.width * (reader.height - reader.rows), code_size);
+  reader.rows = reader.height;
+}
+
 // False with reader.why; what has been read so far is kept.
 bool read(const PictureFile& file, PngReader& reader) {
   png_structp png = reader.png;
@@ -78,10 +85,15 @@ bool read(const PictureFile& file, PngReader& reader) {
   png_read_update_info(png, reader.info);
   const std::size_t row = channels * code_size * reader.width;
   if (png_get_rowbytes(png, reader.info) != row) png_error(png, "its rows have an unexpected size");
-  reader.rgba = static_cast<unsigned char*>(std::calloc(reader.width * reader.height, value_size * channels));
+  reader.rgba =
+      static_cast<unsigned char*>(std::malloc(reader.width * reader.height * value_size * channels));
   if (reader.rgba == nullptr) png_error(png, out_of_memory);
+  if (passes > 1) blacken_the_rest(reader); // each pass fills in some pixels of the rows
   for (int pass = 0; pass < passes; ++pass)
-    for (std::size_t y = 0; y < reader.height; ++y) png_read_row(png, codes_of(reader) + y * row, nullptr);
+    for (std::size_t y = 0; y < reader.height; ++y) {
+      png_read_row(png, codes_of(reader) + y * row, nullptr);
+      reader.rows = std::max(reader.rows, y + 1);
+    }
   png_read_end(png, nullptr);
   return true;
 }
@@ -109,7 +121,7 @@ bool decode_png(const PictureFile& file, DecodedPicture& picture) noexcept {
   png_destroy_read_struct(&reader.png, &reader.info, nullptr);
   std::memcpy(picture.error, reader.why, sizeof reader.why);
   if (reader.rgba == nullptr) return false;
-  if (!whole) fill_gaps(codes_of(reader), reader.width * reader.height, reader.is_deep ? 2 : 1);
+  if (!whole) blacken_the_rest(reader);
   if (reader.is_deep) make_floats(reader);
   picture.rgba = reader.rgba;
   picture.is_float = reader.is_deep ? 1 : 0;
