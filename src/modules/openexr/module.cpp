@@ -64,12 +64,20 @@ std::vector<LayerChannel> in_order(const LayersToEncode& layers) {
   return channels;
 }
 
+exr_attr_box2i_t window(int x, int y, int width, int height) {
+  exr_attr_box2i_t box{};
+  box.min.x = x;
+  box.min.y = y;
+  box.max.x = x + width - 1;
+  box.max.y = y + height - 1;
+  return box;
+}
+
 bool put_header(exr_context_t file, const LayersToEncode& layers, const std::vector<LayerChannel>& channels) {
   int part = 0;
-  const exr_attr_box2i_t whole{{0, 0}, {layers.whole_width - 1, layers.whole_height - 1}};
-  const exr_attr_box2i_t here{{layers.x, layers.y},
-                              {layers.x + layers.width - 1, layers.y + layers.height - 1}};
-  const exr_attr_v2f_t center{0, 0};
+  const exr_attr_box2i_t whole = window(0, 0, layers.whole_width, layers.whole_height);
+  const exr_attr_box2i_t here = window(layers.x, layers.y, layers.width, layers.height);
+  const exr_attr_v2f_t center{};
   bool done = succeeds(exr_add_part(file, nullptr, EXR_STORAGE_SCANLINE, &part)) &&
               succeeds(exr_initialize_required_attr(file, part, &whole, &here, 1, &center, 1,
                                                     EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP)) &&
