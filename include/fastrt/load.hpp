@@ -11,7 +11,7 @@
 namespace fastrt {
 
 struct LoadOptions {
-  int threads = 0;                   // as of RenderSettings
+  int threads = 0;                   // as RenderSettings::threads
   bool strict = false;               // warnings become InputError
   bool allow_external_files = false; // files that a scene names, outside its folder
   bool tr_is_opacity = false;        // MTL: Tr 1 means opaque

@@ -110,7 +110,7 @@ struct Frame {
 Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& settings);
 
 // The same picture by the naive scalar path: every primitive tested for every ray, no tree, no SIMD. For
-// checking.
+// checking. Throws as render does.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
 // What differs between two frames of one size and pixel format.

@@ -175,6 +175,7 @@ public:
 
   // The scene's ambient light and that of its lights.
   Vec3 ambient() const noexcept;
+  // What a ray that hits nothing sees; black where the scene does not say.
   Vec3 background() const noexcept { return desc_.background.value_or(Vec3(0.0F)); }
   // The box around all instances and all primitives but planes and those of prototypes; empty if there are
   // none.

@@ -61,7 +61,7 @@ struct BvhStats {
 struct TracerSettings {
   BvhQuality quality = BvhQuality::standard;
   Isa isa;         // which kernels
-  int threads = 0; // for the build; as of RenderSettings
+  int threads = 0; // for the build; as RenderSettings::threads
   // false: no bounding volume keeps a ray from a primitive, to show what they buy. The answers are the same.
   bool culling = true;
   TracerSettings() : isa(select_isa("auto")) {}

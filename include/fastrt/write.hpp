@@ -24,8 +24,8 @@ void check_picture_size(const std::string& format, int width, int height);
 // Writes a picture: rgb holds 3 * width * height linear values, rows from the top. 8-bit formats (png, ppm,
 // jpg, tif) get the sRGB curve, clamped to 0..1; exr, hdr and pfm stay linear. The file appears whole or not
 // at all: encoded in memory, written beside its place, synced and renamed. Throws OutputError with the
-// system's reason, and UsageError for an unknown extension or another number of values. threads: as of
-// RenderSettings.
+// system's reason, and UsageError for an unknown extension or another number of values. threads: as
+// RenderSettings::threads.
 void write_image(const std::filesystem::path& path, std::span<const float> rgb, int width, int height,
                  int threads = 0);
 

@@ -176,7 +176,7 @@ void NffReader::read_cone() {
 void NffReader::read_polygon(bool is_patch) {
   need_fill();
   const char* const what = is_patch ? "pp" : "p";
-  const std::size_t count = tokens_.count(what, 3, is_patch ? most_cut_vertices : most_vertices);
+  const std::size_t count = tokens_.count(what, 3, is_patch ? max_face_corners : most_vertices);
   // Two bytes a number at least: a count that can't be true must not take memory.
   if (count > tokens_.left() / (is_patch ? 12 : 6) + 1)
     tokens_.fail("the file ends within " + in_quotes(what));

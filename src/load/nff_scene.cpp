@@ -150,7 +150,7 @@ NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
   p.vertex_end.resize(p.vertex_end.size() - 1);
   p.vertex.resize(p.vertex.size() - vertices.size());
   if (!plane.usable) return Found::empty;
-  if (vertices.size() > most_cut_vertices) return Found::too_long;
+  if (vertices.size() > max_face_corners) return Found::too_long;
   push_triangles(vertices, first, {});
   return bent ? Found::bent : Found::good;
 }

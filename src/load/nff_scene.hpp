@@ -25,9 +25,6 @@ struct NffFill {
 // What the renderer makes of it (docs/nff.md).
 Material nff_material(const NffFill& fill);
 
-// Of polygons that are cut into triangles: long ones take too much time.
-inline constexpr std::size_t most_cut_vertices = 65535;
-
 class NffScene {
 public:
   // What follows has this fill, and is one object.
@@ -41,7 +38,7 @@ public:
   bool add_sphere(const Vec3& center, float radius);
   bool add_cone(const Vec3& base, float base_radius, const Vec3& apex, float apex_radius);
   // At least three vertices. normals: one each, or none at all; with them the polygon is a patch.
-  // too_long: not flat, and of more than most_cut_vertices.
+  // too_long: not flat, and of more than max_face_corners.
   enum class Found { good, bent, empty, too_long };
   Found add_polygon(std::span<const Vec3> vertices);
   Found add_patch(std::span<const Vec3> vertices, std::span<const Vec3> normals);

@@ -2,6 +2,7 @@
 #include "src/load/obj_fill.hpp"
 
 #include "src/load/marked_text.hpp"
+#include "src/load/polygon.hpp"
 
 #include <array>
 #include <cstring>

@@ -2,6 +2,7 @@
 // The careful half of ObjFiller.
 #include "src/load/number.hpp"
 #include "src/load/obj_fill.hpp"
+#include "src/load/polygon.hpp"
 #include "src/load/text.hpp"
 
 #include <algorithm>

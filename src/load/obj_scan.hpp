@@ -14,9 +14,6 @@
 
 namespace fastrt {
 
-// A face may not have more corners.
-inline constexpr std::size_t max_face_corners = 65535;
-
 struct ObjCounts {
   std::uint64_t positions = 0, normals = 0, uvs = 0, triangles = 0, objects = 0, groups = 0;
   ObjCounts& operator+=(const ObjCounts& other);

@@ -20,7 +20,6 @@ namespace fastrt {
 namespace {
 
 constexpr std::uint64_t most_rows = std::numeric_limits<std::int32_t>::max();
-constexpr std::int64_t most_corners = 65535;
 constexpr std::int64_t strip_end = -1;
 
 class PlyReader {
@@ -169,7 +168,8 @@ void PlyReader::read_faces(const PlyElement& element, PlyCursor& cursor) {
       }
       const char* place = cursor.place();
       const std::int64_t count = cursor.list_length(property);
-      if (count > most_corners) cursor.fail_at(place, "a face has at most 65535 vertices");
+      if (count > static_cast<std::int64_t>(max_face_corners))
+        cursor.fail_at(place, "a face has at most 65535 vertices");
       corners_.clear();
       for (std::int64_t k = 0; k < count; ++k) {
         const char* at = cursor.place();

@@ -4,11 +4,15 @@
 #include <fastrt/math.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace fastrt {
+
+// What is to be cut into triangles may not have more corners: that takes time.
+inline constexpr std::size_t max_face_corners = 65535;
 
 // Polygons of any shape to triangles. Keeps its memory from one to the next.
 class PolygonTriangulator {

@@ -16,7 +16,6 @@ namespace fastrt {
 namespace {
 
 constexpr std::size_t most_files = 65536;
-constexpr std::size_t most_corners = 65535; // of a face: cutting it takes time
 
 // Where the rows of a mesh begin.
 struct Rows {
@@ -127,7 +126,7 @@ public:
     const std::vector<TomlValue> corners = value.elements();
     if (corners.size() < 3)
       value.fail("expected the numbers of three points or more, found " + std::to_string(corners.size()));
-    if (corners.size() > most_corners) value.fail("a face has at most 65535 points");
+    if (corners.size() > max_face_corners) value.fail("a face has at most 65535 points");
     vertices_.clear();
     corners_.clear();
     const auto last = static_cast<std::int64_t>(mesh_.positions.size()) - 1;

@@ -43,8 +43,7 @@ std::vector<std::string> image_extensions() {
 
 void check_picture_size(const std::string& format, int width, int height) {
   constexpr int most_of_jpeg = 65500; // JPEG_MAX_DIMENSION of libjpeg
-  const bool is_jpeg = format == "jpg" || format == "jpeg";
-  if (is_jpeg && (width > most_of_jpeg || height > most_of_jpeg))
+  if (is_jpeg(format) && (width > most_of_jpeg || height > most_of_jpeg))
     throw OutputError("a JPEG picture has at most 65500 pixels on a side");
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastrt {
@@ -19,6 +20,9 @@ struct Picture {
   int width, height;
   int threads;
 };
+
+// Of a format in lower case.
+inline bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
 
 // The codes of values first .. first + count - 1.
 void put_codes(const Picture& picture, std::size_t first, std::size_t count, unsigned char* codes);

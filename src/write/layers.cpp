@@ -23,7 +23,7 @@ std::string lines_of(std::span<const std::string> names) {
   return lines;
 }
 
-// Frames of codes hold no linear picture.
+// Throws UsageError for a frame that has not all its pixels: those of codes alone hold no linear picture.
 void check_sizes(const Frame& frame) {
   const auto pixels = static_cast<std::size_t>(std::max(frame.width, 0)) *
                       static_cast<std::size_t>(std::max(frame.height, 0));

@@ -18,8 +18,6 @@ namespace fastrt {
 
 namespace {
 
-bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
-
 template <class Encode>
 Encode* loaded(const ModuleFunction& found) {
   if (found.function == nullptr)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/modules/oiio/picture_check.hpp"
 #include "src/modules/pictures.hpp"
 
 #include <OpenImageIO/filesystem.h>
@@ -11,6 +12,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -116,6 +118,9 @@ int decode(const PictureFile& file, DecodedPicture& texture) {
   OIIO::attribute("exr_threads", 1);
   OIIO::geterror(); // forgets what this thread's last file had to say
   const std::string format = file.format;
+  const std::string_view refusal =
+      fastrt::fault_of_picture(format, {reinterpret_cast<const char*>(file.bytes), file.count});
+  if (!refusal.empty()) return fail(texture, std::string(refusal));
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) return fail(texture, OIIO::geterror());
   OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file.bytes), file.count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/load/picture_check.hpp"
+#include "src/modules/oiio/picture_check.hpp"
 
 #include <algorithm>
 #include <array>
