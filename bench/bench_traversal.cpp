@@ -34,7 +34,7 @@ const Course& course_of(const std::string& scene) {
 void trace(benchmark::State& state, const Contender& contender, const RaySet& set) {
   if (set.ray_count == 0) return state.SkipWithError("no rays");
   const auto count = static_cast<double>(set.ray_count);
-  for (auto _ : state) state.SetIterationTime(count / rays_per_second(contender, set, 1, 1));
+  for (auto _ : state) state.SetIterationTime(count / rays_per_second(contender, set, 1, {}));
   state.counters["rays/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
 }
 

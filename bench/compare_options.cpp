@@ -70,7 +70,7 @@ bool set_value(const std::string& name, const std::string& value, CompareOptions
 
 bool set_flag(const std::string& name, CompareOptions& options) {
   if (name == "--quick") {
-    options.rounds = 5;
+    options.rounds = 7;
     options.seconds = 0.02;
   } else if (name == "--inside") {
     options.inside = true;
@@ -116,13 +116,13 @@ std::string compare_usage() {
          "  --rays LIST     primary, point shadow, directional shadow, mirror, refracted, random;\n"
          "                  beginnings of names will do (all)\n"
          "  --rounds N      rounds of each comparison (9)\n"
-         "  --seconds S     that a contender's part of a round takes, about (0.08)\n"
+         "  --seconds S     that a contender's part of a round takes each thread, about (0.08)\n"
          "  --size WxH      pixels of the picture that the rays are taken from (1024x1024)\n"
          "  --eye X,Y,Z     camera; --look-at X,Y,Z its target\n"
          "  --inside        view from inside the model (names with 'sponza'); --outside\n"
          "  --no-scalar     leave out one ray at a time through the binary tree, which is slow\n"
          "  --no-build      do not time building\n"
-         "  --quick         5 rounds of 0.02 s\n"
+         "  --quick         7 rounds of 0.02 s\n"
          "  --json FILE     write all numbers\n";
 }
 

@@ -10,7 +10,7 @@ namespace {
 struct Task {
   const RaySet& set;
   RoundSettings settings;
-  std::size_t step;
+  Share share;
 };
 
 // All that trace in turn, and where each is among them.
@@ -37,7 +37,8 @@ std::string add_fastest(const EmbreeScene& scene, const std::vector<EmbreeMode>&
   for (const EmbreeMode& mode : modes) candidates.push_back(scene.contender(mode));
   RoundSettings settings = task.settings;
   settings.rounds = 3;
-  const std::vector<double> rates = medians(run_rounds(candidates, task.set, settings, task.step));
+  const Share trial{task.share.step, (task.share.passes + 3) / 4};
+  const std::vector<double> rates = medians(run_rounds(candidates, task.set, settings, trial));
   for (std::size_t i = 0; i < modes.size(); ++i)
     result.embree_modes.emplace_back(prefix + name_of(modes[i]), 1e-6 * rates[i]);
   const std::size_t best = fastest(rates);
@@ -92,12 +93,12 @@ TraversalResult measure(const Course& course, const Task& task) {
   result.rays = task.set.name;
   result.threads = task.settings.threads;
   result.ray_count = task.set.ray_count;
-  result.traced_share = 1.0 / static_cast<double>(task.step);
+  result.traced_share = 1.0 / static_cast<double>(task.share.step);
   const Field field = make_field(course, task, result);
   const std::vector<Contender>& all = field.contenders;
   if (field.embree != 0) result.with_embree = compare_answers(all[0], all[field.embree], task.set);
   if (field.robust != 0) result.with_robust = compare_answers(all[0], all[field.robust], task.set);
-  fill_rows(course, field, run_rounds(all, task.set, task.settings, task.step), result);
+  fill_rows(course, field, run_rounds(all, task.set, task.settings, task.share), result);
   return result;
 }
 
@@ -122,11 +123,10 @@ Course make_course(const SceneDesc& desc, const std::vector<Isa>& isas, int thre
 std::vector<TraversalResult> measure_traversal(const Course& course, const RaySet& set,
                                                const CompareOptions& options) {
   const Contender first = fastrt_contender(course.isas.front().tracer, course.isas.front().isa);
-  const int fewest = *std::min_element(options.threads.begin(), options.threads.end());
-  const std::size_t step = step_for(first, set, {fewest, options.rounds, options.seconds});
+  const Share share = share_for(first, set, {1, options.rounds, options.seconds});
   std::vector<TraversalResult> results;
   for (const int threads : options.threads)
-    results.push_back(measure(course, {set, {threads, options.rounds, options.seconds}, step}));
+    results.push_back(measure(course, {set, {threads, options.rounds, options.seconds}, share}));
   return results;
 }
 

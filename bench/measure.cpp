@@ -65,8 +65,9 @@ Spread spread_of(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
-double rays_per_second(const Contender& contender, const RaySet& set, int threads, std::size_t step) {
-  const std::vector<std::size_t> chunks = traced_chunks(set, step);
+double rays_per_second(const Contender& contender, const RaySet& set, int threads, const Share& share) {
+  const std::vector<std::size_t> chunks = traced_chunks(set, share.step);
+  const std::size_t turns = chunks.size() * share.passes * static_cast<std::size_t>(threads);
   const double cost = clock_cost();
   double rate = 0;
 #pragma omp parallel num_threads(threads) reduction(+ : rate)
@@ -75,8 +76,8 @@ double rays_per_second(const Contender& contender, const RaySet& set, int thread
     double busy = 0;
     std::size_t rays = 0;
 #pragma omp for schedule(dynamic)
-    for (std::size_t i = 0; i < chunks.size(); ++i) {
-      const std::size_t chunk = chunks[i];
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+      const std::size_t chunk = chunks[turn % chunks.size()];
       worker->load(&set.batches[chunk * chunk_batches], batches_in_chunk(set, chunk));
       const double start = thread_seconds();
       worker->trace();
@@ -88,20 +89,22 @@ double rays_per_second(const Contender& contender, const RaySet& set, int thread
   return rate;
 }
 
-std::size_t step_for(const Contender& contender, const RaySet& set, const RoundSettings& settings) {
+Share share_for(const Contender& contender, const RaySet& set, const RoundSettings& settings) {
   const std::size_t chunks = chunk_count(set);
   const std::size_t coarse = std::max<std::size_t>(1, chunks / 16);
-  const double rate = rays_per_second(contender, set, settings.threads, coarse);
-  const double wanted = static_cast<double>(set.ray_count) / (rate * settings.seconds);
-  return std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1, coarse);
+  const double rate = rays_per_second(contender, set, 1, {.step = coarse});
+  // How many times too long the whole set takes.
+  const double excess = static_cast<double>(set.ray_count) / (rate * settings.seconds);
+  return {.step = std::clamp<std::size_t>(static_cast<std::size_t>(excess), 1, coarse),
+          .passes = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(1.0 / excess)))};
 }
 
 std::vector<std::vector<double>> run_rounds(std::span<const Contender> contenders, const RaySet& set,
-                                            const RoundSettings& settings, std::size_t step) {
+                                            const RoundSettings& settings, const Share& share) {
   std::vector<std::vector<double>> rates(contenders.size());
   for (int round = 0; round < settings.rounds; ++round)
     for (std::size_t i = 0; i < contenders.size(); ++i)
-      rates[i].push_back(rays_per_second(contenders[i], set, settings.threads, step));
+      rates[i].push_back(rays_per_second(contenders[i], set, settings.threads, share));
   return rates;
 }
 

@@ -20,20 +20,26 @@ Spread spread_of(std::vector<double> values);
 struct RoundSettings {
   int threads = 1;
   int rounds = 7;
-  double seconds = 0.08; // that one contender's part of a round should take; larger sets are thinned out
+  double seconds = 0.08; // that one contender's part of a round should take each thread
 };
 
-// One of `step` chunks of a set is traced, so that slow sets do not take minutes: the same ones by all,
-// spread over the whole picture.
-std::size_t step_for(const Contender& contender, const RaySet& set, const RoundSettings& settings);
+// What of a set is traced in a round, by all contenders: one of `step` chunks, spread over the whole picture,
+// so that slow sets do not take minutes; and these `passes` times for each thread, so that in fast sets what
+// a thread meets with cold caches counts for little.
+struct Share {
+  std::size_t step = 1, passes = 1;
+};
+
+// So that this contender takes about settings.seconds.
+Share share_for(const Contender& contender, const RaySet& set, const RoundSettings& settings);
 
 // Rays per second of tracing, of all threads together. Time is each thread's CPU time, so that being pushed
 // off a core does not count; loading is not timed.
-double rays_per_second(const Contender& contender, const RaySet& set, int threads, std::size_t step);
+double rays_per_second(const Contender& contender, const RaySet& set, int threads, const Share& share);
 
 // One value per round for each contender: A B C A B C ...
 std::vector<std::vector<double>> run_rounds(std::span<const Contender> contenders, const RaySet& set,
-                                            const RoundSettings& settings, std::size_t step);
+                                            const RoundSettings& settings, const Share& share);
 
 // Of each contender's rounds, and which contender's is the largest.
 std::vector<double> medians(const std::vector<std::vector<double>>& rates);

@@ -21,19 +21,13 @@ void add_fastrt(std::vector<PeerCommand>& commands, const RunSettings& settings,
                 const Words& more) {
   const std::string size = std::to_string(settings.size);
   for (const std::string format : {"png", "ppm"}) {
-    Words words{settings.fastrt,
-                model,
-                "--quiet",
-                "--spp",
-                "1",
-                "--resolution",
-                size + 'x' + size,
-                "--threads",
-                std::to_string(settings.threads),
-                "--output",
-                settings.folder + "/fastrt." + format};
+    const std::string picture = settings.folder + "/fastrt." + format;
+    Words words{settings.fastrt,   model,       "--quiet",
+                "--spp",           "1",         "--resolution",
+                size + 'x' + size, "--threads", std::to_string(settings.threads),
+                "--output",        picture};
     append(words, more);
-    commands.push_back({"fastrt (" + format + ")", std::move(words)});
+    commands.push_back({"fastrt (" + format + ")", std::move(words), picture});
   }
 }
 
@@ -41,8 +35,8 @@ void add_pathtracer(std::vector<PeerCommand>& commands, const RunSettings& setti
                     const Picture& picture) {
   const auto program = find_program("pathtracer");
   if (!program) return;
-  const std::string size = std::to_string(settings.size);
-  Words words{*program, "-i", model, "-o", in(settings.folder, "embree.ppm"), "--size", size, size};
+  const std::string size = std::to_string(settings.size), file = in(settings.folder, "embree.ppm");
+  Words words{*program, "-i", model, "-o", file, "--size", size, size};
   append(words, "--vp", picture.camera.eye);
   append(words, "--vi", picture.camera.look_at);
   append(words, "--vu", picture.camera.up);
@@ -50,18 +44,18 @@ void add_pathtracer(std::vector<PeerCommand>& commands, const RunSettings& setti
   append(words, {"2.8", "2.8", "2.8", "--spp", "1", "--max-path-length", "1"});
   append(words, {"--fov", std::to_string(picture.camera.fov_degrees), "--threads",
                  std::to_string(settings.threads)});
-  commands.push_back({"embree pathtracer", std::move(words)});
+  commands.push_back({"embree pathtracer", std::move(words), file});
 }
 
-void add_tachyon(std::vector<PeerCommand>& commands, const RunSettings& settings, const std::string& scene,
-                 const Words& more) {
+void add_tachyon(std::vector<PeerCommand>& commands, const RunSettings& settings) {
   for (const char* name : {"tachyon-nox", "tachyon"}) {
     const auto program = find_program(name);
     if (!program) continue;
-    Words words{*program,  scene, "-numthreads", std::to_string(settings.threads),
-                "-format", "PPM", "-o",          in(settings.folder, "tachyon.ppm")};
-    append(words, more);
-    commands.push_back({"tachyon", std::move(words)});
+    const std::string file = in(settings.folder, "tachyon.ppm");
+    commands.push_back({"tachyon",
+                        {*program, tachyon_scene(settings.folder), "-numthreads",
+                         std::to_string(settings.threads), "-format", "PPM", "-o", file},
+                        file});
     return;
   }
 }
@@ -69,11 +63,11 @@ void add_tachyon(std::vector<PeerCommand>& commands, const RunSettings& settings
 void add_povray(std::vector<PeerCommand>& commands, const RunSettings& settings) {
   const auto program = find_program("povray");
   if (!program) return;
-  const std::string size = std::to_string(settings.size);
-  commands.push_back(
-      {"povray",
-       {*program, "+I" + povray_scene(settings.folder), "+O" + in(settings.folder, "povray.ppm"), "+FP",
-        "+W" + size, "+H" + size, "+WT" + std::to_string(settings.threads), "-D", "-A", "-V"}});
+  const std::string size = std::to_string(settings.size), file = in(settings.folder, "povray.ppm");
+  commands.push_back({"povray",
+                      {*program, "+I" + povray_scene(settings.folder), "+O" + file, "+FP", "+W" + size,
+                       "+H" + size, "+WT" + std::to_string(settings.threads), "-D", "-A", "-V"},
+                      file});
 }
 
 } // namespace
@@ -91,16 +85,15 @@ std::vector<PeerCommand> obj_commands(const RunSettings& settings, const Picture
   std::vector<PeerCommand> commands;
   add_fastrt(commands, settings, model, {"--light", light});
   add_pathtracer(commands, settings, model, picture);
-  add_tachyon(commands, settings, tachyon_scene(settings.folder), {});
+  add_tachyon(commands, settings);
   add_povray(commands, settings);
   return commands;
 }
 
 std::vector<PeerCommand> nff_commands(const RunSettings& settings, const std::string& model) {
-  const std::string size = std::to_string(settings.size), depth = std::to_string(settings.depth);
   std::vector<PeerCommand> commands;
-  add_fastrt(commands, settings, model, {"--max-depth", depth});
-  add_tachyon(commands, settings, model, {"-res", size, size, "-raydepth", depth});
+  add_fastrt(commands, settings, model, {"--max-depth", std::to_string(settings.depth)});
+  add_tachyon(commands, settings);
   add_povray(commands, settings);
   return commands;
 }

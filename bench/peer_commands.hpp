@@ -12,6 +12,7 @@ namespace fastrt::bench {
 struct PeerCommand {
   std::string name;
   std::vector<std::string> words; // the program's full path first
+  std::string picture;            // the file that it writes
 };
 
 struct RunSettings {
@@ -31,7 +32,7 @@ std::string plain_obj(const std::string& folder);
 // fastrt's command writing PNG comes first. An OBJ file: plain surfaces, the picture's one light; Embree's
 // pathtracer, too.
 std::vector<PeerCommand> obj_commands(const RunSettings& settings, const Picture& picture);
-// An NFF file: as it says. Tachyon reads it itself.
+// An NFF file: as it says.
 std::vector<PeerCommand> nff_commands(const RunSettings& settings, const std::string& model);
 
 } // namespace fastrt::bench

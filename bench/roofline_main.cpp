@@ -147,10 +147,10 @@ Cost cost_of(Stepper& stepper, const Tracer& tracer, const EmbreeScene* embree, 
              const Options& options) {
   const RoundSettings settings{1, 5, 0.03};
   const Contender fastrt = fastrt_contender(tracer, options.isa);
-  const std::size_t step = step_for(fastrt, set, settings);
+  const Share share = share_for(fastrt, set, settings);
   Cost cost;
   cost.rays = set.name;
-  cost.rate = spread_of(run_rounds(std::span(&fastrt, 1), set, settings, step)[0]).median;
+  cost.rate = spread_of(run_rounds(std::span(&fastrt, 1), set, settings, share)[0]).median;
   const Work work = count_work(stepper, fastrt, set, options.steps, cost.sampled_rays);
   const auto rays = static_cast<double>(cost.sampled_rays);
   cost.instructions = static_cast<double>(work.instructions) / rays;
@@ -159,7 +159,7 @@ Cost cost_of(Stepper& stepper, const Tracer& tracer, const EmbreeScene* embree, 
   if (embree == nullptr) return cost;
   std::vector<Contender> modes;
   for (const EmbreeMode& mode : embree_modes()) modes.push_back(embree->contender(mode));
-  const Contender& best = modes[fastest(medians(run_rounds(modes, set, {1, 3, 0.02}, step)))];
+  const Contender& best = modes[fastest(medians(run_rounds(modes, set, {1, 3, 0.02}, share)))];
   std::size_t embree_rays = 0;
   const Work peer = count_work(stepper, best, set, options.steps, embree_rays);
   cost.embree_instructions = static_cast<double>(peer.instructions) / static_cast<double>(embree_rays);

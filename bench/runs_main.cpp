@@ -14,9 +14,9 @@
 
 #include "bench/arguments.hpp"
 #include "bench/measure.hpp"
+#include "bench/nff_scenes.hpp"
 #include "bench/peer_commands.hpp"
 #include "bench/peer_scenes.hpp"
-#include "bench/povray_nff.hpp"
 #include "bench/processes.hpp"
 
 namespace fastrt::bench {
@@ -36,7 +36,7 @@ struct Run {
   PeerCommand command;
   std::vector<double> seconds, cpu_seconds;
   std::size_t peak_bytes = 0;
-  int exit_code = 0;
+  std::string fault; // empty if it wrote its picture
 };
 
 const char* const usage = "usage: fastrt_runs [options] MODEL...\n"
@@ -110,16 +110,27 @@ private:
 // Whether a program has run long enough to be known, so that slow ones do not take minutes.
 bool known(const Run& run, double patience) {
   constexpr std::size_t enough = 3;
-  return run.exit_code != 0 || (run.seconds.size() >= enough &&
+  return !run.fault.empty() || (run.seconds.size() >= enough &&
                                 std::accumulate(run.seconds.begin(), run.seconds.end(), 0.0) > patience);
+}
+
+// (Some end well although they could not read their scene.)
+ProcessResult run_once(const PeerCommand& command, std::string& fault) {
+  std::error_code error;
+  std::filesystem::remove(command.picture, error);
+  const ProcessResult result = run_process(command.words);
+  if (result.exit_code != 0)
+    fault = "exit code " + std::to_string(result.exit_code);
+  else if (std::filesystem::file_size(command.picture, error) == 0 || error)
+    fault = "no picture";
+  return result;
 }
 
 void measure(std::vector<Run>& runs, const Options& options) {
   for (int round = 0; round < options.rounds; ++round)
     for (Run& run : runs) {
       if (known(run, options.patience)) continue;
-      const ProcessResult result = run_process(run.command.words);
-      run.exit_code = result.exit_code;
+      const ProcessResult result = run_once(run.command, run.fault);
       run.seconds.push_back(result.seconds);
       run.cpu_seconds.push_back(result.cpu_seconds);
       run.peak_bytes = std::max(run.peak_bytes, result.peak_bytes);
@@ -128,7 +139,7 @@ void measure(std::vector<Run>& runs, const Options& options) {
 
 Spread ratio_to_first(const std::vector<Run>& runs, const Run& run) {
   std::vector<double> ratios;
-  if (runs[0].exit_code != 0) return {};
+  if (!runs[0].fault.empty() || !run.fault.empty()) return {};
   for (std::size_t i = 0; i < run.seconds.size() && i < runs[0].seconds.size(); ++i)
     ratios.push_back(run.seconds[i] / runs[0].seconds[i]);
   return spread_of(ratios);
@@ -138,8 +149,8 @@ void print(const std::string& model, int threads, const std::vector<Run>& runs) 
   std::printf("%s, %d thread%s\n", model.c_str(), threads, threads == 1 ? "" : "s");
   std::printf("  %-20s %9s %9s %9s   %s\n", "", "s", "CPU s", "peak MB", "times fastrt's");
   for (const Run& run : runs) {
-    if (run.exit_code != 0) {
-      std::printf("  %-20s failed, exit code %d\n", run.command.name.c_str(), run.exit_code);
+    if (!run.fault.empty()) {
+      std::printf("  %-20s failed: %s\n", run.command.name.c_str(), run.fault.c_str());
       continue;
     }
     const Spread ratio = ratio_to_first(runs, run);
@@ -155,8 +166,8 @@ std::string json_of(const std::string& model, int threads, const std::vector<Run
   for (const Run& run : runs) {
     const Spread ratio = ratio_to_first(runs, run), seconds = spread_of(run.seconds);
     out << (&run == runs.data() ? "" : ",\n") << "  {\"model\": \"" << model << "\", \"threads\": " << threads
-        << ", \"program\": \"" << run.command.name << "\", \"exit_code\": " << run.exit_code
-        << ", \"seconds\": {\"median\": " << seconds.median << ", \"min\": " << seconds.smallest
+        << ", \"program\": \"" << run.command.name << "\", \"fault\": \"" << run.fault
+        << "\", \"seconds\": {\"median\": " << seconds.median << ", \"min\": " << seconds.smallest
         << ", \"max\": " << seconds.largest << "}, \"cpu_seconds\": " << spread_of(run.cpu_seconds).median
         << ", \"peak_bytes\": " << run.peak_bytes << ", \"times_fastrt\": {\"median\": " << ratio.median
         << ", \"min\": " << ratio.smallest << ", \"max\": " << ratio.largest << "}}";
@@ -196,7 +207,9 @@ void run_obj(const Options& options, const std::string& model, std::vector<std::
 
 void run_nff(const Options& options, const std::string& model, std::vector<std::string>& json) {
   const WorkFolder folder(options.keep);
-  write_povray_of_nff(model, povray_scene(folder.path()), RunSettings{}.depth);
+  const int depth = RunSettings{}.depth;
+  write_povray_of_nff(model, povray_scene(folder.path()), depth);
+  write_tachyon_of_nff(model, tachyon_scene(folder.path()), options.size, depth);
   run_commands(
       options, model, folder, [&](const RunSettings& settings) { return nff_commands(settings, model); },
       json);

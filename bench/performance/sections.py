@@ -52,7 +52,7 @@ def rays(compare, pictures):
     svg = chart("Million rays a second, one thread", ("fastrt", f"Embree {compare['embree']}, its fastest mode"), panels)
     return ["## Rays", "",
             "Tracing alone: the rays of one picture, the same for both, in one process and in turn; of slow sets a part, spread "
-            "over the picture. Both trees are of their library's default quality (Embree's: medium). Embree's mode is the "
+            "over the picture, and fast ones several times. Both trees are of their library's default quality (Embree's: medium). Embree's mode is the "
             "fastest of those tried anew for every row: packets of 1, 4, 8 and 16 rays, and batches of up to 256 as streams "
             "(`rtcIntersect1M`, `1Mp`, `NM`, `Np`, or `rtcOccluded` of these), each with and without its flag for coherent rays. "
             "Its calls run with denormals flushed to zero, as its manual recommends; fastrt's do not. Times are CPU times of the "
@@ -122,8 +122,8 @@ def whole_runs(runs, pictures):
     for model, count in keys:
         bars = []
         for r in (r for r in runs["runs"] if (r["model"], r["threads"]) == (model, count)):
-            if r["exit_code"] != 0:
-                rows.append((model, count, r["program"], f"failed with {r['exit_code']}", "", "", ""))
+            if r["fault"]:
+                rows.append((model, count, r["program"], f"failed: {r['fault']}", "", "", ""))
                 continue
             times = r["times_fastrt"]
             bars.append((r["program"], [r["seconds"]["median"]],
@@ -137,9 +137,9 @@ def whole_runs(runs, pictures):
             "From the start of the program to the finished picture: read, build, render, write; 1024 x 1024 pixels, one "
             "sample. OBJ files: for all the same triangles, one light, shadows, and plain grey surfaces: fastrt and Embree's `pathtracer` "
             "read them from an OBJ file without materials and normals, the others in their own words. `pathtracer` traces paths of length 1. NFF files (the "
-            "Standard Procedural Databases): their own lights, shadows, mirrors and refraction, five levels; POV-Ray gets them "
-            "in its own words, Tachyon reads them itself, though not all of what they say (no cones, no refraction; its picture of gears is blank). The others "
-            "write PPM. The last column is the time divided by that of fastrt writing PNG.", "",
+            "Standard Procedural Databases): their own view, lights, shadows, mirrors and refraction, five levels; the others get them "
+            "in their own words. (Tachyon reads NFF, but shows less of it, at a wider angle, and nothing of gears. It knows no refraction, of which "
+            "mount and gears have much, and no cones: these are cylinders.) The others write PPM. The last column is the time divided by that of fastrt writing PNG.", "",
             *picture(pictures, "runs", "Seconds of whole runs", svg),
             *table(("model", "threads", "program", "s", "CPU s", "peak MB", "times fastrt's"), rows)]
 
