@@ -147,6 +147,7 @@ private:
     const WideNode& node = tree_.nodes[parent.index];
     const auto used = std::find(node.child, node.child + wide_children, no_child) - node.child;
     if (used < 2) return fail(name + "fewer than two children");
+    if (!std::is_sorted(node.size, node.size + used)) return fail(name + "a child before a smaller one");
     Aabb bounds;
     for (int i = wide_children - 1; i >= 0; --i) {
       const Aabb box = box_of(node, i);

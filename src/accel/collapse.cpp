@@ -13,6 +13,11 @@
 namespace fastrt {
 namespace {
 
+std::uint32_t size_of(const BinaryNode& box) {
+  return size_exponent(std::max(box.upper[0] - box.lower[0],
+                                std::max(box.upper[1] - box.lower[1], box.upper[2] - box.lower[2])));
+}
+
 void set_box(WideNode& wide, int i, const BinaryNode& box) {
   wide.lower_x[i] = box.lower[0];
   wide.upper_x[i] = box.upper[0];
@@ -20,8 +25,7 @@ void set_box(WideNode& wide, int i, const BinaryNode& box) {
   wide.upper_y[i] = box.upper[1];
   wide.lower_z[i] = box.lower[2];
   wide.upper_z[i] = box.upper[2];
-  wide.size[i] = size_exponent(std::max(box.upper[0] - box.lower[0],
-                                        std::max(box.upper[1] - box.lower[1], box.upper[2] - box.lower[2])));
+  wide.size[i] = size_of(box);
 }
 
 // How many nodes, and blocks of each group; or the first ones that are free.
@@ -81,6 +85,23 @@ public:
   }
 
 private:
+  // A node's children, the smallest first: those who look for any hit take the last first.
+  int children_of(std::uint32_t binary, std::uint32_t* children) const {
+    const int count = plan_.children_of(binary, children);
+    std::uint32_t sizes[wide_children];
+    for (int i = 0; i < count; ++i) {
+      const std::uint32_t child = children[i], size = size_of(tree_.nodes[child]);
+      int place = i;
+      for (; place > 0 && sizes[place - 1] > size; --place) {
+        sizes[place] = sizes[place - 1];
+        children[place] = children[place - 1];
+      }
+      sizes[place] = size;
+      children[place] = child;
+    }
+    return count;
+  }
+
   template <class F>
   void for_each_part(const F& body) {
     TaskFailure failure;
@@ -94,7 +115,7 @@ private:
     parts_.emplace_back();
     for (std::size_t next = 0; next < parts_.size() && parts_.size() - next < enough; ++next) {
       std::uint32_t children[wide_children];
-      const int count = plan_.children_of(parts_[next].binary, children);
+      const int count = children_of(parts_[next].binary, children);
       parts_[next].one_node = true;
       for (int i = 0; i < count; ++i) {
         if (plan_.is_leaf(children[i])) continue;
@@ -108,7 +129,7 @@ private:
 
   void count_node(std::uint32_t binary, bool below, Extent& size) const {
     std::uint32_t children[wide_children];
-    const int count = plan_.children_of(binary, children);
+    const int count = children_of(binary, children);
     ++size.nodes;
     for (int i = 0; i < count; ++i) {
       if (plan_.is_leaf(children[i]))
@@ -149,7 +170,7 @@ private:
       return;
     }
     std::uint32_t children[wide_children];
-    const int count = plan_.children_of(part.binary, children);
+    const int count = children_of(part.binary, children);
     WideNode& node = put_node(children, count, next);
     for (std::size_t i = 0; i < part.below.size(); ++i)
       if (part.below[i] != 0) node.child[i] = static_cast<std::uint32_t>(parts_[part.below[i]].first.nodes);
@@ -157,7 +178,7 @@ private:
 
   std::uint32_t put_subtree(std::uint32_t binary, Extent& next) {
     std::uint32_t children[wide_children];
-    const int count = plan_.children_of(binary, children);
+    const int count = children_of(binary, children);
     const auto index = static_cast<std::uint32_t>(next.nodes);
     WideNode& node = put_node(children, count, next);
     for (int i = 0; i < count; ++i)

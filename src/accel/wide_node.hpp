@@ -16,7 +16,7 @@ inline constexpr int max_tree_stack = max_tree_depth * (wide_children - 1) + wid
 inline constexpr std::uint32_t max_blocks = 1U << 26;
 
 // Eight children, their boxes as columns. An unused child has an inverted box (lower = +inf, upper = -inf)
-// and `no_child`. Used children come first.
+// and `no_child`. Used children come first, the smallest (by `size`) before the larger ones.
 struct alignas(64) WideNode {
   float lower_x[wide_children], upper_x[wide_children];
   float lower_y[wide_children], upper_y[wide_children];

@@ -142,6 +142,11 @@ FASTRT_INLINE std::uint32_t groups_inside_edges(const TileGroups& groups, const 
   return groups_inside_edges(groups, edges.lines, i, bits);
 }
 
+// The triangles that reach inside group g's rectangle by their edges; and all that are unsure.
+FASTRT_INLINE PacketM triangles_around(const PencilEdges& edges, const TileGroups& groups, int g) {
+  return triangles_around(edges.lines, groups, g) | from_bits<widest>(edges.unsure & register_bits);
+}
+
 // The rays of group g that triangle i may lie around. As seen along each of them, the corners of an unsure
 // one turn one way.
 FASTRT_INLINE std::uint32_t rays_inside_edges(const TilePoints& points, const PencilEdges& edges, int i,

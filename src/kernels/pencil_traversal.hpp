@@ -24,13 +24,16 @@ FASTRT_INLINE void meet_run(PencilTraversal& tile, const TriangleRun& run) {
   // All hits lie in a triangle's box, not in the triangle as the pencil sees it: that may be edge-on.
   const V3<PacketF> low{min(a.x, min(b.x, c.x)), min(a.y, min(b.y, c.y)), min(a.z, min(b.z, c.z))};
   const V3<PacketF> high{max(a.x, max(b.x, c.x)), max(a.y, max(b.y, c.y)), max(a.z, max(b.z, c.z))};
-  std::uint32_t touched[widest];
-  const std::uint32_t some = touch_triangles(tile.view, run, project_box(f, low, high), touched);
-  if (some == 0) return;
+  const Rectangles<PacketF> bounds = project_box(f, low, high);
+  TouchedRun touched;
+  touch_run(tile.view, run, bounds, touched);
+  if (touched.some == 0) return;
   PencilEdges edges;
   // (With rounding: corners of tiny triangles may be as far apart as they are wrong.)
   lines_in_pencil(tile.view, a, b, c, largest(high - low) + PacketF(f.padding), edges);
-  for_each_pair(tile, run, edges, some, touched, [&](int i, int g, std::uint32_t rays) {
+  PairList list;
+  list_pairs(tile.view, run, bounds, touched, edges, list);
+  for_each_pair(tile, run, edges, list, [&](int i, int g, std::uint32_t rays) {
     const std::uint32_t towards = rays & rays_towards(tile.points, edges, i, g);
     if (towards != 0) meet_own_origins(tile, run, i, g, towards);
   });

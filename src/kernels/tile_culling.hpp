@@ -1,41 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes as rectangles of a batch's projection, and the groups of rays that rectangles touch.
+// What a batch sees of a node's boxes.
 #pragma once
 
-#include "src/kernels/tile_setup.hpp"
+#include "src/kernels/tile_rectangles.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-// A rectangle per lane, and the depths at which its contents begin and end.
-template <class F>
-struct Rectangles {
-  F x0, x1, y0, y1, near, end;
-};
-
-// The part of the plane that a box covers, given its extent along u, v, w seen from the origin. Behind the
-// origin or around it the answer is the whole plane.
-template <class F>
-FASTRT_INLINE Rectangles<F> project_extent(const TileFrame& f, const F& u0, const F& u1, const F& v0,
-                                           const F& v1, const F& w0, const F& w1) {
-  if (!f.perspective) return {u0, u1, v0, v1, w0, w1};
-  const F zero(0.0F), one(1.0F), everywhere(__builtin_inff()), nowhere(-__builtin_inff());
-  const F nearest = one / w0, farthest = one / w1;
-  const MaskOf<F> around = w0 <= zero;
-  const auto low = [&](const F& a) {
-    return select(around, nowhere, a * select(a < zero, nearest, farthest));
-  };
-  const auto high = [&](const F& a) {
-    return select(around, everywhere, a * select(a > zero, nearest, farthest));
-  };
-  const F x0 = low(u0), x1 = high(u1), y0 = low(v0), y1 = high(v1);
-  const F margin(rectangle_margin);
-  return {x0 - (abs(x0) + one) * margin,
-          x1 + (abs(x1) + one) * margin,
-          y0 - (abs(y0) + one) * margin,
-          y1 + (abs(y1) + one) * margin,
-          w0,
-          w1};
-}
 
 // Which of a node's columns hold the least and the greatest corner along an axis of the frame, and the axis
 // itself.
@@ -118,76 +87,6 @@ FASTRT_INLINE void aim_view(TileView& view) {
   view.sides[3] = extent_axis(f, tilted(f.v, f.w, -1.0F, view.y1));
 }
 
-// Groups that a rectangle touches and that look from before `end` as far as `near`.
-template <bool apart>
-FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, float x0, float x1, float y0, float y1,
-                                           float near, float end) {
-  std::uint32_t bits = 0;
-  for (int g = 0; g < batch_groups; g += widest) {
-    PacketM touched = (PacketF::load_aligned(groups.x0 + g) <= PacketF(x1)) &
-                      (PacketF::load_aligned(groups.x1 + g) >= PacketF(x0)) &
-                      (PacketF::load_aligned(groups.y0 + g) <= PacketF(y1)) &
-                      (PacketF::load_aligned(groups.y1 + g) >= PacketF(y0)) &
-                      (PacketF::load_aligned(groups.far + g) >= PacketF(near));
-    if (apart) touched = touched & (PacketF::load_aligned(groups.begin + g) <= PacketF(end));
-    bits |= to_bits(touched) << g;
-  }
-  return bits;
-}
-
-// About as many groups can be held against all rectangles at once in the time that `rectangle_cost /
-// group_cost` rectangles take to be held against all groups.
-inline constexpr int group_cost = 5, rectangle_cost = widest == batch_groups ? 7 : 10;
-
-// The groups of `groups` that each rectangle touches, as touched_groups() finds them, for the lanes in
-// `lanes`; 0 elsewhere. Returns the lanes that touch any.
-template <bool apart, class F>
-FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles<F>& r, std::uint32_t lanes,
-                                         std::uint32_t groups, std::uint32_t* touched) {
-  constexpr int width = width_of<F>;
-  if (__builtin_popcount(groups) * group_cost <= __builtin_popcount(lanes) * rectangle_cost) {
-    IntsOf<F> bits(0);
-    std::uint32_t some = 0;
-    for (; groups != 0; groups &= groups - 1) {
-      const int g = __builtin_ctz(groups);
-      MaskOf<F> met = (r.x0 <= F(all.x1[g])) & (r.x1 >= F(all.x0[g])) & (r.y0 <= F(all.y1[g])) &
-                      (r.y1 >= F(all.y0[g])) & (r.near <= F(all.far[g]));
-      if (apart) met = met & (r.end >= F(all.begin[g]));
-      bits = select_ints<F>(met, bits | IntsOf<F>(static_cast<std::int32_t>(1U << g)), bits);
-      some |= to_bits(met);
-    }
-    bits.store_unaligned(reinterpret_cast<std::int32_t*>(touched));
-    return some & lanes;
-  }
-  alignas(sizeof(F)) float x0[width], x1[width], y0[width], y1[width], near[width], end[width];
-  r.x0.store_aligned(x0);
-  r.x1.store_aligned(x1);
-  r.y0.store_aligned(y0);
-  r.y1.store_aligned(y1);
-  r.near.store_aligned(near);
-  r.end.store_aligned(end);
-  std::uint32_t some = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int i = __builtin_ctz(lanes);
-    touched[i] = touched_groups<apart>(all, x0[i], x1[i], y0[i], y1[i], near[i], end[i]) & groups;
-    some |= touched[i] != 0 ? 1U << i : 0U;
-  }
-  return some;
-}
-
-template <class View, class F>
-FASTRT_INLINE std::uint32_t touch_groups(const View& view, const Rectangles<F>& r, std::uint32_t lanes,
-                                         std::uint32_t groups, std::uint32_t* touched) {
-  return touch_groups<View::begins_apart>(view.groups, r, lanes, groups, touched);
-}
-
-// A node's children as the batch sees them; bits: those that some group touches, and which groups do.
-struct TouchedChildren {
-  alignas(32) float near[wide_children];
-  std::uint32_t groups[wide_children];
-  std::uint32_t bits;
-};
-
 // Boxes that reach behind the origin have no rectangle; the four sides still tell which of them the batch
 // can't meet.
 FASTRT_INLINE std::uint32_t within_sides(const TileView& view, const float* columns) {
@@ -205,12 +104,13 @@ FASTRT_INLINE std::uint32_t boxes_ahead(const TileView& view, const float* colum
   return bits & within_sides(view, columns);
 }
 
-template <class View>
-FASTRT_INLINE void touch_children(const View& view, const WideNode& node, std::uint32_t groups,
-                                  TouchedChildren& out) {
+// The node's children that may be met by some of the batch: act(child's place, where it begins, the groups of
+// `groups` that touch it), of which the last may still be none.
+template <class View, class Act>
+FASTRT_INLINE void for_each_touched(const View& view, const WideNode& node, std::uint32_t groups,
+                                    const Act& act) {
   using N = Floats<node_lanes>;
   const N padding(view.frame.padding);
-  out.bits = 0;
   for (int half = 0; half < wide_children; half += node_lanes) {
     const float* const columns = node.lower_x + half;
     const Extent<N> w = box_extent(view.w, columns, padding);
@@ -219,9 +119,11 @@ FASTRT_INLINE void touch_children(const View& view, const WideNode& node, std::u
     const Rectangles<N> r = project_extent(view.frame, u.low, u.high, v.low, v.high, w.low, w.high);
     const MaskOf<N> met = (r.x0 <= N(view.x1)) & (r.x1 >= N(view.x0)) & (r.y0 <= N(view.y1)) &
                           (r.y1 >= N(view.y0)) & (w.high >= N(view.frame.near)) & (w.low <= N(view.far));
-    const std::uint32_t bits = boxes_ahead(view, columns, w.low, to_bits(met));
-    r.near.store_aligned(out.near + half);
-    if (bits != 0) out.bits |= touch_groups(view, r, bits, groups, out.groups + half) << half;
+    const StoredRectangles<N> stored(r);
+    for (std::uint32_t bits = boxes_ahead(view, columns, w.low, to_bits(met)); bits != 0; bits &= bits - 1) {
+      const int i = __builtin_ctz(bits);
+      act(half + i, stored.near[i], touched_groups<View::begins_apart>(view.groups, stored, i) & groups);
+    }
   }
 }
 

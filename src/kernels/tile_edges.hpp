@@ -81,6 +81,17 @@ FASTRT_INLINE std::uint32_t groups_inside_edges(const TileGroups& groups, const 
   return bits;
 }
 
+// The triangles whose three edges group g's rectangle reaches inside of.
+FASTRT_INLINE PacketM triangles_around(const EdgeLines& lines, const TileGroups& groups, int g) {
+  const PacketF zero(0.0F), x0(groups.x0[g]), x1(groups.x1[g]), y0(groups.y0[g]), y1(groups.y1[g]);
+  const auto inside = [&](int e) {
+    const PacketF a = PacketF::load_aligned(lines.a[e]), b = PacketF::load_aligned(lines.b[e]);
+    return cull_mul_add(a, select(a > zero, x1, x0),
+                        cull_mul_add(b, select(b > zero, y1, y0), PacketF::load_aligned(lines.c[e]))) >= zero;
+  };
+  return inside(0) & inside(1) & inside(2);
+}
+
 // The rays of group g inside all three edges of triangle i.
 FASTRT_INLINE std::uint32_t rays_inside_edges(const TilePoints& points, const EdgeLines& lines, int i,
                                               int g) {

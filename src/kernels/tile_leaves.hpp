@@ -3,7 +3,6 @@
 // tested with one register of rays at a time. Triangles wait until they fill a register (tile_triangles.hpp).
 #pragma once
 
-#include "src/kernels/tile_rectangles.hpp"
 #include "src/kernels/tile_triangles.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
@@ -30,7 +29,7 @@ FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const BlockRun<Spher
   const Rectangles<LeafF> boxes = project_spheres(tile.view.frame, run);
   std::uint32_t some = touch_groups(tile.view, boxes, lanes_of(run), groups, touched);
   if (some == 0) return;
-  const StoredRectangles rectangles(boxes);
+  const StoredRectangles<LeafF> rectangles(boxes);
   for (; some != 0; some &= some - 1) {
     const int lane = __builtin_ctz(some);
     const SphereBlock& block = run.block_of(lane);
@@ -100,7 +99,7 @@ template <bool any, class View>
     const Rectangles<LeafF> boxes = project_boxes(tile.view.frame, run);
     std::uint32_t some = touch_groups(tile.view, boxes, lanes_of(run), groups, touched);
     if (some == 0) return;
-    const StoredRectangles rectangles(boxes);
+    const StoredRectangles<LeafF> rectangles(boxes);
     for (; some != 0; some &= some - 1) {
       const int lane = __builtin_ctz(some);
       const std::int32_t id = run.primitive(lane);

@@ -13,7 +13,7 @@ namespace fastrt::FASTRT_ISA_NAMESPACE {
 struct alignas(16) TileEntry {
   std::uint32_t child;
   std::uint32_t groups;
-  float near, order;
+  float near;
 };
 
 // What will be looked at soon is asked for now: a miss beyond the last cache costs as much as testing a few
@@ -36,36 +36,30 @@ FASTRT_INLINE void prefetch_child(const GeometryView& scene, std::uint32_t child
   for (int i = 0; i < lines; ++i) __builtin_prefetch(at + 64 * i);
 }
 
-// What comes first is on top: of rays that look for the closest hit the nearest child, of others the largest
-// one, which is likeliest to hold something in their way.
-template <bool any>
-FASTRT_INLINE float order_of(const WideNode& node, float near, int child) {
-  return any ? -static_cast<float>(node.size[child]) : near;
-}
-
-// Puts the children that were touched onto the stack.
-template <bool any>
-FASTRT_INLINE TileEntry* push_children(const GeometryView& scene, const WideNode& node,
-                                       const TouchedChildren& c, TileEntry* top) {
+// Puts the children that some of `groups` touch onto the stack. What comes first is on top: of rays that look
+// for the closest hit the nearest child, of others the largest one, which is likeliest to hold something in
+// their way. That is the last one.
+template <bool any, class View>
+FASTRT_INLINE TileEntry* push_children(const TileTraversal<any, View>& tile, const WideNode& node,
+                                       std::uint32_t groups, TileEntry* top) {
   TileEntry* const bottom = top;
-  for (std::uint32_t bits = c.bits; bits != 0; bits &= bits - 1) {
-    const int i = __builtin_ctz(bits);
-    prefetch_child(scene, node.child[i]);
-    const float order = order_of<any>(node, c.near[i], i);
-    TileEntry* place = top++;
-    for (; place != bottom && place[-1].order < order; --place) *place = place[-1];
-    store_together(node.child[i], c.groups[i], __builtin_bit_cast(std::uint32_t, c.near[i]),
-                   __builtin_bit_cast(std::uint32_t, order), place);
-  }
+  for_each_touched(tile.view, node, groups, [&](int i, float near, std::uint32_t touched) {
+    if (!any && touched == 0) return;
+    prefetch_child(tile.scene, node.child[i]);
+    TileEntry* place = top;
+    if (!any)
+      for (; place != bottom && place[-1].near < near; --place) *place = place[-1];
+    store_together(node.child[i], touched, __builtin_bit_cast(std::uint32_t, near), 0U, place);
+    top += touched != 0 ? 1 : 0;
+  });
   return top;
 }
 
 template <bool any, class View>
 FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
   TileEntry stack[max_tree_stack];
-  stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff(), 0.0F};
+  stack[0] = {tile.scene.root, (1U << batch_groups) - 1U, -__builtin_inff()};
   TileEntry* top = stack + 1;
-  TouchedChildren children;
   while (top != stack) {
     const TileEntry entry = *--top;
     const std::uint32_t groups = entry.groups & far_groups(tile.view.groups, entry.near);
@@ -77,8 +71,7 @@ FASTRT_INLINE void traverse(TileTraversal<any, View>& tile) {
     }
     const WideNode& node = tile.scene.nodes[entry.child];
     ++tile.nodes;
-    touch_children(tile.view, node, groups, children);
-    top = push_children<any>(tile.scene, node, children, top);
+    top = push_children(tile, node, groups, top);
   }
   if (tile.waiting.count != 0) meet_waiting(tile);
 }

@@ -4,12 +4,9 @@
 #pragma once
 
 #include "src/kernels/tile_certain.hpp"
+#include "src/kernels/tile_pairs.hpp"
 
 namespace fastrt::FASTRT_ISA_NAMESPACE {
-
-// A triangle that covers more groups than this by its rectangle is first held against their corners by its
-// edges.
-inline constexpr int many_groups = 4;
 
 // Set-ups and reaches of a run as columns, so that one can be spread over a register.
 struct RunSetup {
@@ -43,62 +40,28 @@ FASTRT_INLINE V3<PacketF> load_vertices(const TriangleRun& run, int v) {
   return {load_quads<PacketF>(x), load_quads<PacketF>(y), load_quads<PacketF>(z)};
 }
 
-// touch_groups() for a run's triangles, each of which may only touch groups that reached its leaf.
-template <class View>
-FASTRT_INLINE std::uint32_t touch_triangles(const View& view, const TriangleRun& run,
-                                            const Rectangles<PacketF>& bounds, std::uint32_t* touched) {
-  std::uint32_t of_any = 0;
-  for (int k = 0; k < run.count; ++k) of_any |= run.groups[k];
-  const std::uint32_t lanes = (1U << run.count * block_size) - 1U;
-  std::uint32_t some = touch_groups(view, bounds, lanes, of_any, touched);
-  for (int k = 0; k < run.count; ++k) {
-    if (run.groups[k] == of_any) continue;
-    for (int i = k * block_size; i < (k + 1) * block_size; ++i) {
-      touched[i] &= run.groups[k];
-      some &= ~((touched[i] == 0 ? 1U : 0U) << i);
-    }
-  }
-  return some;
-}
-
-// A triangle of a run and the rays of a group that its edges let through, in one word: the rays below, the
-// group's number and the triangle's above.
-using MetPair = std::uint32_t;
-static_assert(batch_groups == 16 && group_size == 16 && widest <= 16);
-
-// What the edges of a run's triangles let through of the groups that they touch: act(triangle, group, rays).
-// First all triangles against their groups' corners, then all pairs against the rays, then what is left:
-// three loops whose ends and branches can be foreseen better than those of loops in each other.
+// What the edges of a run's triangles let through of the listed pairs: act(triangle, group, rays). First all
+// pairs against the rays, then what is left: two loops whose branches can be foreseen better than those of
+// one.
 template <bool any, class View, class Edges, class Act>
 FASTRT_INLINE void for_each_pair(const TileTraversal<any, View>& tile, const TriangleRun& run,
-                                 const Edges& edges, std::uint32_t some, const std::uint32_t* touched,
-                                 const Act& act) {
-  constexpr int at_once = 64 / batch_groups;
-  std::uint64_t pairs[widest / at_once] = {};
-  for (; some != 0; some &= some - 1) {
-    const int i = __builtin_ctz(some);
-    std::uint32_t groups = touched[i];
-    if (__builtin_popcount(groups) > many_groups)
-      groups = groups_inside_edges(tile.view.groups, edges, i, groups);
-    pairs[i / at_once] |= static_cast<std::uint64_t>(groups) << (i % at_once * batch_groups);
-  }
+                                 const Edges& edges, const PairList& list, const Act& act) {
   alignas(64) std::int32_t ids[widest];
   for (int k = 0; k < TriangleRun::most_blocks; ++k)
     load<Ints<block_size>>(run.block[k]->primitive).store_aligned(ids + k * block_size);
   MetPair met[widest * batch_groups];
   int count = 0;
-  for (int first = 0; first < widest; first += at_once)
-    for (std::uint64_t left = pairs[first / at_once]; left != 0; left &= left - 1) {
-      const int bit = __builtin_ctzll(left), i = first + bit / batch_groups, g = bit % batch_groups;
-      const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
-                                 ~rays_that_exclude(tile.rays, g * group_size, ids[i]);
-      met[count] = static_cast<std::uint32_t>(first * batch_groups + bit) << group_size | rays;
-      count += rays != 0 ? 1 : 0;
-    }
+  for_each_listed(list, [&](MetPair pair) {
+    const int i = triangle_of(pair), g = group_of(pair);
+    const std::uint32_t rays = rays_inside_edges(tile.points, edges, i, g) & tile.open[g] &
+                               ~rays_that_exclude(tile.rays, g * group_size, ids[i]);
+    met[count] = pair | rays;
+    count += rays != 0 ? 1 : 0;
+  });
   for (int k = 0; k < count; ++k) {
-    const int triangle = static_cast<int>(met[k] >> 20U), group = static_cast<int>(met[k] >> 16U & 15U);
-    const std::uint32_t all = met[k] & 0xFFFFU, rays = any ? all & tile.open[group] : all;
-    if (rays != 0) act(triangle, group, rays);
+    const int group = group_of(met[k]);
+    const std::uint32_t all = rays_of(met[k]), rays = any ? all & tile.open[group] : all;
+    if (rays != 0) act(triangle_of(met[k]), group, rays);
   }
 }
 
@@ -138,15 +101,14 @@ FASTRT_INLINE void meet_own_origins(TileTraversal<any, View>& tile, const Triang
   });
 }
 
-// The triangles of a run in `some` against the groups that they touch. make_planes(planes): of the triangles;
-// meet(triangle, group, rays): by the triangle's own test.
+// The listed pairs of a run. make_planes(planes): of the triangles; meet(triangle, group, rays): by the
+// triangle's own test.
 template <bool any, class View, class MakePlanes, class Meet>
 FASTRT_INLINE void meet_pairs(TileTraversal<any, View>& tile, const TriangleRun& run, const EdgeLines& lines,
-                              std::uint32_t some, const std::uint32_t* touched, const MakePlanes& make_planes,
-                              const Meet& meet) {
+                              const PairList& list, const MakePlanes& make_planes, const Meet& meet) {
   [[maybe_unused]] PlaneLines planes;
   [[maybe_unused]] bool has_planes = false;
-  for_each_pair(tile, run, lines, some, touched, [&](int i, int g, std::uint32_t rays) {
+  for_each_pair(tile, run, lines, list, [&](int i, int g, std::uint32_t rays) {
     if constexpr (any)
       if (may_be_certain<any>(rays)) {
         if (!has_planes) make_planes(planes);
@@ -165,23 +127,26 @@ FASTRT_INLINE void meet_run(TileTraversal<any, View>& tile, const TriangleRun& r
   const V3<PacketF> a = load_vertices(run, 0) - origin, b = load_vertices(run, 1) - origin,
                     c = load_vertices(run, 2) - origin;
   const ProjectedTriangles projected = project_triangles(tile.view, a, b, c);
-  std::uint32_t touched[widest];
-  const std::uint32_t some = touch_triangles(tile.view, run, projected.bounds, touched);
-  if (some == 0) return;
+  TouchedRun touched;
+  touch_run(tile.view, run, projected.bounds, touched);
+  if (touched.some == 0) return;
   EdgeLines lines;
+  PairList list;
   const TriangleReach<PacketF> reach = reach_of(a, b, c, largest(origin));
   if constexpr (View::begins_apart) {
     lines_from_corners(f, projected.corners, reach, lines);
+    list_pairs(tile.view, run, projected.bounds, touched, lines, list);
     meet_pairs(
-        tile, run, lines, some, touched,
+        tile, run, lines, list,
         [&](PlaneLines& p) { planes_from_corners(f, tile.view.groups.depth_scale[0], a, b, c, p); },
         [&](int i, int g, std::uint32_t rays) { meet_own_origins(tile, run, i, g, rays); });
   } else {
     const TriangleSetup<PacketF> setup = set_up_triangle(a, b, c);
     lines_from_setup(f, setup, reach, lines);
     const RunSetup stored = store_setup(setup, reach);
+    list_pairs(tile.view, run, projected.bounds, touched, lines, list);
     meet_pairs(
-        tile, run, lines, some, touched, [&](PlaneLines& p) { planes_from_setup(f, setup, p); },
+        tile, run, lines, list, [&](PlaneLines& p) { planes_from_setup(f, setup, p); },
         [&](int i, int g, std::uint32_t rays) { meet_from_origin(tile, run, stored, i, g, rays); });
   }
 }
