@@ -77,7 +77,11 @@ private:
     const TomlPart part{scene_.add_prototype(begin), TomlMap{}};
     const std::vector<TomlMap> placements = read_placements(fields);
     check_room(fields, placements.size());
-    for (const TomlMap& map : placements) push(part, map, no_index, no_index);
+    // One copy is the object that the primitive is anyway.
+    const auto name = placements.size() > 1 ? fields.find("name") : std::nullopt;
+    std::size_t copy = 0;
+    for (const TomlMap& map : placements)
+      push(part, map, no_index, name ? scene_.add_copy(name->text(), ++copy, placements.size()) : no_index);
   }
 
   void read_instance(const TomlNode& node) {
@@ -88,8 +92,9 @@ private:
     const std::uint32_t own = material ? scene_.material(*material) : no_index;
     const std::vector<TomlMap> placements = placements_or_one(fields);
     check_room(fields, placements.size() * of.size());
+    std::size_t copy = 0;
     for (const TomlMap& map : placements) {
-      const std::uint32_t object = name ? scene_.add_object(name->text()) : no_index;
+      const std::uint32_t object = name ? scene_.add_copy(name->text(), ++copy, placements.size()) : no_index;
       for (const TomlPart& part : of) push(part, map, own, object);
     }
   }
@@ -166,9 +171,12 @@ void read_toml_plane(const TomlFile& file, const TomlNode& node, TomlScene& scen
   fields.read_direction("normal", normal);
   const auto name = fields.find("name");
   const std::uint32_t material = scene.material_of(fields);
-  const std::uint32_t object = scene.add_object(name ? name->text() : scene.next_name("plane"));
+  const std::vector<TomlMap> placements = placements_or_one(fields);
+  std::uint32_t object = name ? 0 : scene.add_object(scene.next_name("plane"));
+  std::size_t copy = 0;
   PlaneColumns& planes = scene.desc.planes;
-  for (const TomlMap& map : placements_or_one(fields)) {
+  for (const TomlMap& map : placements) {
+    if (name) object = scene.add_copy(name->text(), ++copy, placements.size());
     planes.point.push_back(Vec3(map.linear * glm::dvec3(point) + map.origin));
     planes.normal.push_back(
         Vec3(glm::normalize(glm::transpose(glm::inverse(map.linear)) * glm::normalize(glm::dvec3(normal)))));

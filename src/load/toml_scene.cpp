@@ -39,6 +39,10 @@ std::uint32_t TomlScene::add_object(std::string name) {
   return object;
 }
 
+std::uint32_t TomlScene::add_copy(const std::string& name, std::size_t number, std::size_t count) {
+  return add_object(count > 1 ? name + ' ' + std::to_string(number) : name);
+}
+
 std::string TomlScene::next_name(const char* kind) { return kind + (' ' + std::to_string(++counts_[kind])); }
 
 std::uint32_t TomlScene::material(const TomlValue& name) const {
@@ -77,8 +81,7 @@ void TomlScene::add_instances(const TomlFields& fields, const std::vector<TomlPa
                 fields.what() + ": the scene has more than " + std::to_string(most_instances) + " instances");
   std::size_t copy = 0;
   for (const TomlMap& placement : placements) {
-    const std::string number = placements.size() > 1 ? ' ' + std::to_string(++copy) : "";
-    const std::uint32_t object = name ? add_object(name->text() + number) : no_index;
+    const std::uint32_t object = name ? add_copy(name->text(), ++copy, placements.size()) : no_index;
     for (const TomlPart& part : parts) {
       const TomlMap to_world = after(placement, part.to_whole);
       if (!can_be_undone(to_world))

@@ -56,6 +56,8 @@ public:
   // A warning, or with LoadOptions::strict an error.
   void warn(const std::string& file, TomlPlace place, const char* kind, const std::string& message);
   std::uint32_t add_object(std::string name);
+  // The object that copy `number` of `count` is, from 1: its name is numbered if there are several.
+  std::uint32_t add_copy(const std::string& name, std::size_t number, std::size_t count);
   // "sphere 3", counted by kind.
   std::string next_name(const char* kind);
   std::uint32_t material(const TomlValue& name) const;

@@ -104,6 +104,20 @@ TEST(TomlInstances, CopiesByListAndByRepeat) {
   EXPECT_EQ(grid.prototypes.size(), 1U);
 }
 
+// Wherever they stand: planes, and what lies in a prototype.
+TEST(TomlInstances, EachCopyOfWhatHasANameIsAnObject) {
+  TomlTexts texts;
+  const std::string twice = "repeat = { count = 2, step = [0, 9, 0] }\n";
+  const SceneDesc planes = texts.desc("[[plane]]\nname = 'p'\n" + twice + "[[plane]]\n" + twice);
+  EXPECT_EQ(planes.object_names, (std::vector<std::string>{"p 1", "p 2", "plane 1"}));
+  EXPECT_EQ(planes.planes.object, (Column<std::uint32_t>{0, 1, 2, 2}));
+  const SceneDesc desc =
+      texts.desc("[[prototype.a.sphere]]\nname = 's'\n" + twice + "[[prototype.b.instance]]\nof = 'a'\n" +
+                 "[[prototype.b.instance]]\nof = 'a'\nname = 'i'\n" + twice + "[[instance]]\nof = 'b'\n");
+  EXPECT_EQ(desc.object_names, (std::vector<std::string>{"s", "s 1", "s 2", "i 1", "i 2"}));
+  EXPECT_EQ(desc.instances.object, (Column<std::uint32_t>{1, 2, 3, 3, 4, 4}));
+}
+
 TEST(TomlInstances, TenThousandCopiesTakeAFewLines) {
   TomlTexts texts;
   const SceneDesc desc = texts.desc("[[sphere]]\nrepeat = [{ count = 100, step = [3, 0, 0] }, { count = 100, "
