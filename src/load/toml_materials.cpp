@@ -76,8 +76,9 @@ void read_preset(const TomlFields& fields, Material& m) {
 void read_terms(const TomlFields& fields, Material& m) {
   static constexpr std::string_view models[] = {"phong", "blinn"};
   static constexpr std::string_view fresnels[] = {"none", "schlick", "dielectric"};
+  const bool ambient_follows = m.ambient == m.diffuse;
   fields.read_color("diffuse", m.diffuse);
-  if (fields.has("diffuse")) m.ambient = m.diffuse;
+  if (ambient_follows) m.ambient = m.diffuse;
   fields.read_color("ambient", m.ambient);
   fields.read_color("specular", m.specular);
   if (const auto model = fields.find("specular_model"))
@@ -100,6 +101,7 @@ void read_textures(const TomlFile& file, const TomlFields& fields, bool is_new, 
   if (fields.has("bump_texture") && fields.has("normal_texture"))
     fields.fail(fields.place("normal_texture"),
                 fields.what() + " has both 'bump_texture' and 'normal_texture'");
+  const bool ambient_follows = m.ambient_texture == m.diffuse_texture;
   for (const Slot& slot : slots) {
     const auto value = fields.find(slot.key);
     if (!value) continue;
@@ -114,7 +116,7 @@ void read_textures(const TomlFile& file, const TomlFields& fields, bool is_new, 
     if (takes_image) m.bump_is_normal_map = slot.key == "normal_texture";
     if (is_new && slot.color != nullptr && !fields.has(slot.color_key)) m.*slot.color = Vec3(1.0F);
   }
-  if (fields.has("diffuse_texture") && !fields.has("ambient_texture")) {
+  if (ambient_follows && fields.has("diffuse_texture") && !fields.has("ambient_texture")) {
     m.ambient_texture = m.diffuse_texture;
     if (is_new && !fields.has("ambient")) m.ambient = m.diffuse;
   }

@@ -39,6 +39,24 @@ TEST(TomlIncludes, AddAndMayBeChanged) {
   EXPECT_EQ(red.ior, 1.25F); // what is not said stays
 }
 
+TEST(TomlIncludes, AnAmbientTermOfItsOwnStays) {
+  TomlTexts texts;
+  const std::string checker = "_texture = { checker = [0, 1] }\n";
+  texts.folder().write("known.toml", "[material.own]\nambient = [0, 1, 0]\nambient" + checker +
+                                         "[material.none]\nambient_texture = false\ndiffuse" + checker +
+                                         "[material.same]\ndiffuse" + checker);
+  std::string text = "include = 'known.toml'\n";
+  for (const std::string name : {"own", "none", "same"})
+    text += "[material." + name + "]\ndiffuse = 0.5\ndiffuse" + checker;
+  const std::vector<Material> materials = texts.desc(text + "[[sphere]]\n").materials;
+  EXPECT_EQ(materials[0].ambient, Vec3(0, 1, 0));
+  EXPECT_EQ(materials[0].ambient_texture, 0U);
+  EXPECT_EQ(materials[1].ambient_texture, no_texture);
+  EXPECT_EQ(materials[2].ambient, Vec3(0.5F));
+  EXPECT_EQ(materials[2].ambient_texture, materials[2].diffuse_texture);
+  EXPECT_EQ(materials[2].diffuse, Vec3(0.5F));
+}
+
 TEST(TomlIncludes, CyclesAndDepthEnd) {
   TomlTexts texts;
   texts.folder().write("a.toml", "include = 'b.toml'");
