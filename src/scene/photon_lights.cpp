@@ -5,6 +5,7 @@
 #include "src/scene/light_meshes.hpp"
 #include "src/scene/light_numbers.hpp"
 #include "src/scene/photon_targets.hpp"
+#include "src/scene/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -113,17 +114,35 @@ void set_frame(const Frame3& frame, PhotonLight& row) {
   row.w = frame.w;
 }
 
+// How far before the point that is the middle of the beam light starts: `least`, or before all planes, which
+// have no bounds, that a corner of the beam comes through within `most`.
+double before_planes(const Scene& scene, const DVec3& middle, const PhotonLight& row, double least,
+                     double most) {
+  const double side = static_cast<double>(row.half_side);
+  double ahead = least;
+  for (const PlaneShape& plane : scene.shapes().planes)
+    for (const double x : {-side, side})
+      for (const double y : {-side, side}) {
+        const DVec3 corner = middle + x * DVec3(row.u) + y * DVec3(row.v);
+        const DVec3 normal(plane.normal);
+        const double way = glm::dot(corner - DVec3(plane.point), normal) / glm::dot(DVec3(row.w), normal);
+        if (way < most) ahead = std::max(ahead, 1.01 * way);
+      }
+  return ahead;
+}
+
 // Parallel light starts outside of the ball around the scene's bounds, on a square before all targets.
 double plan_parallel(const Scene& scene, const Light& light, const PhotonTargets& targets, PhotonLight& row) {
+  constexpr double farthest = 1000; // times the scene's radius: floats have digits for no more
   if (scene.bounds().empty() || (targets.balls.empty() && !targets.everywhere)) return 0;
   const PhotonTargets::Ball whole = ball_around(scene.bounds());
   const PhotonTargets::Ball target = targets.everywhere ? whole : ball_around(targets);
   set_frame(frame_around(DVec3(light.direction)), row);
   const DVec3 w(row.w);
   const double side = std::max(std::min(target.radius, whole.radius), 1e-6 * glm::length(whole.center));
-  const double ahead = 1.01 * whole.radius + glm::dot(target.center - whole.center, w);
   row.half_side = static_cast<float>(1.005 * side);
-  row.middle = target.center - ahead * w;
+  const double ahead = 1.01 * whole.radius + glm::dot(target.center - whole.center, w);
+  row.middle = target.center - before_planes(scene, target.center, row, ahead, farthest * whole.radius) * w;
   aim_parallel_cells(targets, row);
   return 4 * double(row.half_side) * double(row.half_side);
 }

@@ -144,6 +144,24 @@ TEST_P(CausticPictures, LightIsNotCountedTwice) {
   }
 }
 
+// Water whose surface is a plane above all that has bounds: half of the sun's light goes through it. A roof
+// there keeps all of it off.
+TEST_P(CausticPictures, SunOverAnEndlessSurface) {
+  for (const bool roof : {false, true}) {
+    SceneBuilder builder;
+    builder.add_light(beam({0.1F, -1, 0}));
+    add_quad(builder, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, builder.add_material(dark_matt()));
+    builder.add_plane({0, 5, 0}, {0, 1, 0}, builder.add_material(roof ? black() : clear(1.333F, Vec3(0.5F))));
+    const Scene scene = builder.build();
+    const Camera camera{{2, 0.8F, 0}, {0, 0, 0}, {0, 1, 0}, 18};
+    const double expected = roof ? 0 : 0.5 / std::sqrt(1.01);
+    for (const bool forward : {true, false}) {
+      const Frame frame = by_photons(scene, camera, settings_for_optics(), forward, 60000);
+      EXPECT_NEAR(light_in_the_middle(frame), expected, 0.02) << roof << forward;
+    }
+  }
+}
+
 // A lamp 1 below the face of a medium: on a ceiling 1 above it, light that spreads by angles of a in the
 // medium and of 1.5 a above it is (1 + 1.5)^2 / (1 + 1)^2 thinner. The medium takes its part of the way in
 // it.
