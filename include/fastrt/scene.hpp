@@ -127,6 +127,9 @@ struct SceneDesc {
 
   // What a scene file says of the picture to be made of it; Scene itself does not look at it.
   std::optional<Camera> camera;
+  // The file leaves open where the camera is, or what an orthographic one shows: this was chosen to show the
+  // whole scene in a picture of the file's size (4 to 3 without one), and is to be chosen anew for another.
+  bool camera_place_is_chosen = false, camera_height_is_chosen = false;
   int width = 0, height = 0; // pixels; 0 where the file does not say
   PictureSettings picture;
 };

@@ -41,15 +41,29 @@ float aspect_of(const Options& options) {
   return static_cast<float>(options.width) / static_cast<float>(options.height);
 }
 
+// The scene's camera, which is where it shows all of the scene if the file does not say where it is.
+Camera placed_camera(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
+  if (desc.camera && !desc.camera_place_is_chosen) return *desc.camera;
+  Camera camera = desc.camera.value_or(Camera{});
+  const bool shows_fov = !options.orthographic && !options.window;
+  const float fov = shows_fov && options.given.contains("--fov") ? options.fov_degrees : camera.fov_degrees;
+  const Vec3 up = options.given.contains("--up") ? options.up : camera.up;
+  const Camera framed = frame_scene(bounds, fov, aspect_of(options), up);
+  camera.eye = framed.eye;
+  camera.look_at = framed.look_at;
+  camera.fov_degrees = fov;
+  return camera;
+}
+
 Camera camera_by_options(const Options& options, const Aabb& bounds, const SceneDesc& desc) {
   const float aspect = aspect_of(options);
-  const bool shows_fov = !options.orthographic && !options.window;
-  const float fov = shows_fov ? options.fov_degrees : Camera{}.fov_degrees;
-  Camera camera = desc.camera ? *desc.camera : frame_scene(bounds, fov, aspect, options.up);
+  Camera camera = placed_camera(options, bounds, desc);
   if (options.eye) camera.eye = *options.eye;
   if (options.look_at) camera.look_at = *options.look_at;
   if (options.given.contains("--up")) camera.up = options.up;
   choose_view(options, bounds, aspect, camera);
+  if (desc.camera_height_is_chosen && !options.orthographic && camera.projection == Projection::orthographic)
+    camera.view_height = orthographic_height(bounds, camera, aspect);
   // Throws for a view that makes no sense, before the long work.
   make_camera_frame(camera, options.width, options.height);
   return camera;

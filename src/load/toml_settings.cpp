@@ -75,16 +75,18 @@ void finish_toml_camera(TomlScene& scene) {
   SceneDesc& desc = scene.desc;
   if (scene.camera_file.empty()) return;
   Camera& camera = *desc.camera;
+  desc.camera_place_is_chosen = !scene.knows_eye;
+  desc.camera_height_is_chosen = !scene.knows_height && camera.projection == Projection::orthographic;
   const bool has_size = desc.width != 0;
   const int width = has_size ? desc.width : 4, height = has_size ? desc.height : 3;
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   try {
-    if (!scene.knows_eye) {
+    if (desc.camera_place_is_chosen) {
       const Camera framed = frame_scene(bounds_of(desc), camera.fov_degrees, aspect, camera.up);
       camera.eye = framed.eye;
       camera.look_at = framed.look_at;
     }
-    if (!scene.knows_height && camera.projection == Projection::orthographic)
+    if (desc.camera_height_is_chosen)
       camera.view_height = orthographic_height(bounds_of(desc), camera, aspect);
     make_camera_frame(camera, width, height);
   } catch (const InputError& error) {

@@ -223,6 +223,27 @@ TEST(CliOptions, TheScenesValuesCountWhereNoneAreGiven) {
   EXPECT_EQ(own.seed, 0U);
 }
 
+TEST(CliOptions, WhatTheScenesCameraLeavesOpenFollowsThePicture) {
+  const Aabb bounds{Vec3(-4, -1, -1), Vec3(4, 1, 1)};
+  SceneDesc desc;
+  desc.camera = Camera{};
+  desc.camera->fov_degrees = 60;
+  desc.camera_place_is_chosen = true;
+  const auto camera = [&](std::initializer_list<const char*> arguments) {
+    return choose_camera(parse(arguments), bounds, desc);
+  };
+  EXPECT_EQ(camera({"a.toml", "-r", "40x160"}).eye, frame_scene(bounds, 60, 0.25F).eye);
+  EXPECT_EQ(camera({"a.toml", "-r", "160x40", "--fov", "20"}).eye, frame_scene(bounds, 20, 4).eye);
+  EXPECT_EQ(camera({"a.toml", "-r", "160x40", "--up", "0,0,1"}).eye,
+            frame_scene(bounds, 60, 4, {0, 0, 1}).eye);
+  EXPECT_EQ(camera({"a.toml", "--eye", "9,9,9"}).eye, Vec3(9));
+  desc.camera->projection = Projection::orthographic;
+  desc.camera_height_is_chosen = true;
+  const Camera tall = camera({"a.toml", "-r", "40x160"});
+  EXPECT_EQ(tall.view_height, orthographic_height(bounds, tall, 0.25F));
+  EXPECT_EQ(camera({"a.toml", "-r", "40x160", "--ortho", "3"}).view_height, 3);
+}
+
 TEST(CliOptions, TheScenesCameraIsChangedByOptions) {
   SceneDesc desc;
   desc.camera = Camera{};

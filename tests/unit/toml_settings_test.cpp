@@ -40,9 +40,14 @@ TEST(TomlSettings, CamerasWithoutAPlaceShowTheWholeScene) {
   const Camera framed = frame_scene(bounds_of(desc), 20, 2);
   EXPECT_EQ(desc.camera->eye, framed.eye);
   EXPECT_EQ(desc.camera->look_at, framed.look_at);
+  EXPECT_TRUE(desc.camera_place_is_chosen);
   const SceneDesc parallel = texts.desc("[camera]\nprojection = 'orthographic'\n[[sphere]]\nradius = 5");
   EXPECT_EQ(parallel.camera->view_height,
             orthographic_height(bounds_of(parallel), *parallel.camera, 4.0F / 3));
+  EXPECT_TRUE(parallel.camera_height_is_chosen);
+  const SceneDesc said = texts.desc("[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n"
+                                    "projection = 'orthographic'\nheight = 3\n");
+  EXPECT_FALSE(said.camera_place_is_chosen || said.camera_height_is_chosen);
 }
 
 TEST(TomlSettings, CamerasThatMakeNoSenseAreRefused) {
