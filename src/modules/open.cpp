@@ -5,9 +5,11 @@
 #include "src/modules/pictures.hpp"
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 // Of an installed library, by the program that uses it (cmake/module_folder.cpp).
@@ -19,20 +21,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The file that holds this code: a shared library or the program. What the program was called, which is all
+// that dladdr knows of it, may name something else in the current folder; the loader gives it no name.
+fs::path holder() {
+  std::error_code error;
+  Dl_info info{};
+  void* map = nullptr;
+  if (dladdr1(reinterpret_cast<const void*>(&holder), &info, &map, RTLD_DL_LINKMAP) != 0 && map != nullptr) {
+    const std::string_view library = static_cast<const link_map*>(map)->l_name;
+    if (const fs::path file = fs::canonical(library, error); !library.empty() && !error) return file;
+  }
+  return fs::read_symlink("/proc/self/exe", error);
+}
+
 // The folders to look into, first come first served. FASTRT_MODULE_PATH, if set, is the only one.
 std::vector<fs::path> module_folders() {
   if (const char* path = secure_getenv("FASTRT_MODULE_PATH"); path != nullptr && *path != '\0') return {path};
   std::vector<fs::path> folders;
-  Dl_info info{};
-  std::error_code error;
-  fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (dladdr(reinterpret_cast<const void*>(&module_folders), &info) != 0 && info.dli_fname != nullptr) {
-    // A shared library that holds this code; the program's own name may be relative to a folder left since.
-    const fs::path holder = fs::canonical(info.dli_fname, error);
-    if (!error) program = holder;
-  }
-  fs::path folder = program.parent_path();
-  folders.push_back(folder);
+  fs::path folder = holder().parent_path();
+  if (!folder.empty()) folders.push_back(folder);
   for (int level = 0; level < 5 && !folder.empty(); ++level) {
     folders.push_back(folder / FASTRT_LIBDIR / "fastrt");
     if (!folder.has_relative_path()) break;

@@ -35,6 +35,15 @@ one_picture() {
   done
 }
 
+# Modules lie beside the program, not where something is called like it.
+modules_of_the_program() {
+  PATH=$(dirname "$fastrt"):$PATH
+  fastrt=$(basename "$fastrt")
+  mkdir "$fastrt"
+  echo "no module" >fastrt_png_jpeg.so
+  expect 0 tiny.obj "${small[@]}" -o picture.jpg
+}
+
 default_name() {
   mkdir deep
   cp tiny.obj deep/model.v2.obj
