@@ -6,6 +6,7 @@
 
 #include <fastrt/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -101,6 +102,12 @@ void check_finite(const VertexColumns& columns, Slot first, Slot last, const cha
   }
 }
 
+// Of several names for one thing the last one's values count.
+bool is_overwritten(const std::vector<int>& slots, std::size_t property) {
+  return std::find(slots.begin() + static_cast<std::ptrdiff_t>(property) + 1, slots.end(), slots[property]) !=
+         slots.end();
+}
+
 // Three of a kind, or none.
 void keep_columns(const PlyElement& element, const std::vector<int>& slots, VertexColumns& columns,
                   SceneDesc& desc) {
@@ -111,7 +118,7 @@ void keep_columns(const PlyElement& element, const std::vector<int>& slots, Vert
   if (columns[red].empty() || columns[green].empty() || columns[blue].empty()) return;
   for (std::size_t k = 0; k < slots.size(); ++k) {
     const PlyType type = element.properties[k].type;
-    if (slots[k] < red) continue;
+    if (slots[k] < red || is_overwritten(slots, k)) continue;
     Column<float>& column = columns[static_cast<std::size_t>(slots[k])];
     if (type == PlyType::uint8) {
       std::array<float, 256> decoded{};

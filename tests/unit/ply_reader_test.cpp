@@ -135,6 +135,34 @@ TEST(PlyReader, BinaryOfBothEndiansEqualsText) {
   }
 }
 
+// Codes are decoded once, whatever names they go by.
+TEST(PlyReader, TheLastOfSeveralNamesCounts) {
+  std::string header = plain_header;
+  header.insert(header.find("element face"), "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                             "property float r\nproperty uchar diffuse_green\n");
+  const Read found =
+      read(header + "0 0 0 9 9 255 0.25 128\n1 0 0 9 9 9 0 0\n1 1 0 9 9 9 0 0\n0 1 0 9 9 9 0 0\n"
+                    "4 0 1 2 3\n");
+  ASSERT_EQ(found.desc.colors.size(), 4U);
+  EXPECT_EQ(found.desc.colors[0].x, 0.25F);
+  EXPECT_NEAR(found.desc.colors[0].y, 0.2158605, 1e-6);
+  EXPECT_EQ(found.desc.colors[0].z, 1.0F);
+}
+
+// Codes are a share of the most that their type holds, and gamma encoded; floats are linear light.
+TEST(PlyReader, ColoursOfOtherTypes) {
+  std::string header = plain_header;
+  header.insert(header.find("element face"),
+                "property ushort red\nproperty float green\nproperty double blue\n");
+  const Read found = read(header + "0 0 0 32896 0.5 1.5\n1 0 0 65535 -1 -0.5\n1 1 0 0 0 1\n0 1 0 1 1 1\n"
+                                   "4 0 1 2 3\n");
+  ASSERT_EQ(found.desc.colors.size(), 4U);
+  EXPECT_NEAR(found.desc.colors[0].x, 0.2158605, 1e-6); // of code 128 in 8 bits
+  EXPECT_EQ(found.desc.colors[0].y, 0.5F);
+  EXPECT_EQ(found.desc.colors[0].z, 1.5F);
+  EXPECT_EQ(found.desc.colors[1], Vec3(1, 0, 0));
+}
+
 TEST(PlyReader, Strips) {
   std::string header = plain_header;
   header.replace(header.find("element face 1"), 14, "element tristrips 1");
