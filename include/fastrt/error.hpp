@@ -39,22 +39,4 @@ public:
   using Error::Error;
 };
 
-// Prints the failed claim with both values and aborts. Only FASTRT_ASSERT calls it.
-[[noreturn]] void assertion_failed(const char* claim, const char* file, int line, double left,
-                                   double right) noexcept;
-
 } // namespace fastrt
-
-// Programmer errors: checked in Debug builds and in the tests' builds, compiled out of Release.
-#if defined(FASTRT_ASSERTS)
-#define FASTRT_ASSERT_OP(a, op, b)                                                                           \
-  (((a)op(b)) ? static_cast<void>(0)                                                                         \
-              : ::fastrt::assertion_failed(#a " " #op " " #b, __FILE__, __LINE__, static_cast<double>(a),    \
-                                           static_cast<double>(b)))
-#else
-#define FASTRT_ASSERT_OP(a, op, b) static_cast<void>(0)
-#endif
-#define FASTRT_ASSERT(claim) FASTRT_ASSERT_OP((claim), !=, false)
-#define FASTRT_ASSERT_LE(a, b) FASTRT_ASSERT_OP(a, <=, b)
-#define FASTRT_ASSERT_LT(a, b) FASTRT_ASSERT_OP(a, <, b)
-#define FASTRT_ASSERT_EQ(a, b) FASTRT_ASSERT_OP(a, ==, b)

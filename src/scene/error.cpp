@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/assert.hpp"
 #include "src/scene/printable.hpp"
 
 #include <fastrt/error.hpp>
