@@ -21,8 +21,8 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-// Its output goes to the file, or nowhere.
-pid_t start(const char* program, char** arguments, int output) {
+// The program is the first argument. Its output goes to the file, or nowhere.
+pid_t start(char** arguments, int output) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -32,7 +32,7 @@ pid_t start(const char* program, char** arguments, int output) {
     posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t pid = 0;
-  const int error = posix_spawn(&pid, program, &actions, nullptr, arguments, environ);
+  const int error = posix_spawn(&pid, arguments[0], &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   return error == 0 ? pid : -1;
 }
@@ -50,7 +50,7 @@ std::string read_all(int file) {
 
 int measure_process(char** command) {
   const auto begin = std::chrono::steady_clock::now();
-  const pid_t pid = start(command[0], command, -1);
+  const pid_t pid = start(command, -1);
   int status = 0;
   rusage usage{};
   if (pid < 0 || wait4(pid, &status, 0, &usage) != pid) return 1;
@@ -67,7 +67,7 @@ ProcessResult run_process(const std::vector<std::string>& command) {
   arguments.push_back(nullptr);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw Error("cannot make a pipe");
-  const pid_t pid = start(self.c_str(), arguments.data(), ends[1]);
+  const pid_t pid = start(arguments.data(), ends[1]);
   close(ends[1]);
   std::istringstream line(pid < 0 ? std::string() : read_all(ends[0]));
   close(ends[0]);

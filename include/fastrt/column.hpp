@@ -98,10 +98,6 @@ public:
     size_ = old_size + count;
     if (count != 0) std::memcpy(data_ + old_size, values, count * sizeof(T));
   }
-  // Gives back what was reserved and not used.
-  void shrink_to_fit() {
-    if (capacity_ > size_) reallocate(size_);
-  }
 
   bool operator==(const Column& other) const {
     if (size_ != other.size_) return false;

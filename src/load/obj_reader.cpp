@@ -236,9 +236,4 @@ SceneDesc read_obj(const Source& source, const ObjReaderSettings& settings, Diag
   return ObjReader(source, settings).run(diagnostics);
 }
 
-SceneDesc parse_obj(std::string_view text, const std::string& name, const ObjReaderSettings& settings,
-                    Diagnostics& diagnostics) {
-  return read_obj(Source::memory(text, name), settings, diagnostics);
-}
-
 } // namespace fastrt

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 
 namespace fastrt {
 
@@ -32,9 +31,5 @@ struct ObjReaderSettings {
 // what needs all positions. The file is read twice rather than kept: memory goes to the scene alone. Throws
 // as load_obj does.
 SceneDesc read_obj(const Source& source, const ObjReaderSettings& settings, Diagnostics& diagnostics);
-
-// The same from memory, without material files. `name` stands for the file in messages.
-SceneDesc parse_obj(std::string_view text, const std::string& name, const ObjReaderSettings& settings,
-                    Diagnostics& diagnostics);
 
 } // namespace fastrt

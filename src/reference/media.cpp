@@ -7,12 +7,6 @@
 
 namespace fastrt::reference {
 
-bool Media::holds(std::uint32_t material) const noexcept {
-  for (int i = 0; i < count_; ++i)
-    if (materials_[static_cast<std::size_t>(i)] == material) return true;
-  return false;
-}
-
 Media Media::crossed(std::uint32_t material) const noexcept {
   Media result = *this;
   for (int i = count_ - 1; i >= 0; --i) {

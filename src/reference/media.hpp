@@ -21,7 +21,6 @@ public:
 
   bool empty() const noexcept { return count_ == 0; }
   std::uint32_t innermost() const noexcept { return materials_[static_cast<std::size_t>(count_) - 1]; }
-  bool holds(std::uint32_t material) const noexcept;
   // As it is after a surface of this material has been crossed: without its most recent entry if the ray was
   // inside, otherwise with it as the innermost. A fifth pushes the outermost one out.
   Media crossed(std::uint32_t material) const noexcept;

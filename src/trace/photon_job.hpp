@@ -52,7 +52,7 @@ struct PhotonJob {
   EyeView eye;
   std::int64_t* film; // three sums a pixel (src/film/light_film.hpp); null: caustics are wanted
   std::uint32_t seed;
-  std::uint32_t first, last; // photons first .. last - 1
+  std::uint32_t last; // photons from PhotonScratch::next on, up to last - 1
   int max_depth;
   float min_contribution;
 };

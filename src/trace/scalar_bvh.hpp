@@ -21,8 +21,7 @@ public:
   reference::Hit closest(const reference::Ray& ray) const override;
   bool any(const reference::Ray& ray) const override;
 
-  const BinaryTree& tree() const noexcept { return world_.binary; } // not a prototype's
-  BvhStats stats() const;                                           // of all trees; build_seconds is 0
+  BvhStats stats() const; // of all trees; build_seconds is 0
 
 private:
   struct Tree {

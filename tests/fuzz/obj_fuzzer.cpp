@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Feeds the OBJ reader, and the MTL reader, whatever libFuzzer makes up. Build and run:
 //   clang++ -std=c++20 -O1 -g -fopenmp -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -I.
-//   -Iinclude
-//     tests/fuzz/obj_fuzzer.cpp src/load/*.cpp
-//     src/scene/{bounds,error,material_check,scene,scene_check,threads}.cpp -o obj_fuzzer &&
-//     OMP_NUM_THREADS=1 ./obj_fuzzer -max_len=4096 corpus/
+//     -Iinclude tests/fuzz/obj_fuzzer.cpp src/load/*.cpp src/modules/open.cpp src/scene/*.cpp -o obj_fuzzer
+//     && OMP_NUM_THREADS=1 ./obj_fuzzer -max_len=4096 corpus/
 #include "src/load/mtl.hpp"
 #include "src/load/obj_reader.hpp"
 
@@ -33,7 +31,7 @@ Outcome read(std::string_view text, std::size_t chunk_bytes) {
   ObjReaderSettings settings;
   settings.chunk_bytes = chunk_bytes;
   try {
-    outcome.desc = parse_obj(text, "fuzz.obj", settings, diagnostics);
+    outcome.desc = read_obj(Source::memory(text, "fuzz.obj"), settings, diagnostics);
   } catch (const Error& error) {
     outcome.error = error.what();
   }

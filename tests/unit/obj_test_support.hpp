@@ -33,7 +33,7 @@ inline ObjReaderSettings settings_for_tests() {
 
 inline Loaded parse(std::string_view text, const ObjReaderSettings& settings = settings_for_tests()) {
   Loaded loaded;
-  loaded.desc = parse_obj(text, "t.obj", settings, loaded.diagnostics);
+  loaded.desc = read_obj(Source::memory(text, "t.obj"), settings, loaded.diagnostics);
   return loaded;
 }
 
