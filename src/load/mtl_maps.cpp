@@ -39,10 +39,6 @@ std::string_view without_quotes(std::string_view name) {
   return name;
 }
 
-} // namespace
-
-namespace {
-
 // What the words and numbers behind an option say; numbers that were left out are not set.
 void apply_option(std::string_view option, const std::string& word,
                   const std::array<std::optional<float>, 3>& n, MtlMap& map) {

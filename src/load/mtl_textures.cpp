@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The texture files that the maps of an MTL file name.
 #include "src/load/mtl.hpp"
-#include "src/load/parallel_for.hpp"
 #include "src/load/text.hpp"
 #include "src/load/texture_file.hpp"
 
 #include <map>
-#include <utility>
+#include <set>
 
 namespace fastrt {
 
@@ -33,14 +32,9 @@ std::vector<Use> uses_in(std::vector<MtlRecord>& records) {
 
 void read_maps(std::vector<MtlRecord>& records, int threads, EventLog& log) {
   const std::vector<Use> uses = uses_in(records);
-  std::map<std::pair<std::filesystem::path, TextureCode>, TextureFile> files;
-  for (const Use& use : uses) files.try_emplace({use.map->path, use.code});
-  std::vector<decltype(files)::value_type*> all;
-  for (auto& file : files) all.push_back(&file);
-  if (!all.empty())
-    parallel_for(all.size(), threads, [&](std::size_t i, std::size_t) {
-      all[i]->second = read_texture(all[i]->first.first, all[i]->first.second);
-    });
+  std::set<TextureKey> keys;
+  for (const Use& use : uses) keys.emplace(use.map->path, use.code);
+  const std::map<TextureKey, TextureFile> files = read_textures(keys, threads);
   for (const Use& use : uses) {
     const TextureFile& file = files.at({use.map->path, use.code});
     use.map->image = file.image;

@@ -8,13 +8,6 @@
 #include <utility>
 
 namespace fastrt {
-namespace {
-
-// A polygon whose vertices are farther from its plane than this share of its size is no plane any more.
-constexpr double most_bent = 1e-3;
-
-} // namespace
-
 // Opacity weakens all that the surface itself sends; the highlight is to keep its strength.
 Material nff_material(const NffFill& fill) {
   const float opacity = std::max(1.0F - fill.transmittance, 0.0F);
@@ -137,11 +130,9 @@ NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
   for (std::uint32_t i = 0; i < vertices.size(); ++i) p.vertex.push_back(first + i);
   p.vertex_end.push_back(static_cast<std::uint32_t>(p.vertex.size()));
   p.contour_end.push_back(static_cast<std::uint32_t>(p.vertex_end.size()));
-  const PolygonPlane plane = plane_of(desc_, p.contour_end.size() - 1);
-  Aabb box;
-  for (const Vec3& vertex : vertices) box.extend(vertex);
-  const bool bent = plane.deviation > most_bent * static_cast<double>(glm::length(box.extent()));
-  if (plane.usable && !bent) {
+  const std::size_t row = p.contour_end.size() - 1;
+  const PolygonPlane plane = plane_of(desc_, row);
+  if (plane.usable && is_flat(desc_, row, plane)) {
     p.material.push_back(material_);
     p.object.push_back(static_cast<std::uint32_t>(desc_.object_names.size() - 1));
     return Found::good;
@@ -152,7 +143,7 @@ NffScene::Found NffScene::add_polygon(std::span<const Vec3> vertices) {
   if (!plane.usable) return Found::empty;
   if (vertices.size() > max_face_corners) return Found::too_long;
   push_triangles(vertices, first, {});
-  return bent ? Found::bent : Found::good;
+  return Found::bent;
 }
 
 NffScene::Found NffScene::add_patch(std::span<const Vec3> vertices, std::span<const Vec3> normals) {

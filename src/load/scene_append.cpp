@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/scene_append.hpp"
 
-#include <fastrt/error.hpp>
+#include "src/scene/row_counts.hpp"
 
-#include <string>
 #include <utility>
 
 namespace fastrt {
@@ -91,9 +90,7 @@ void append_polygons(PolygonColumns& to, const PolygonColumns& from, const Shift
 void append_materials(SceneDesc& to, SceneDesc& from, const Shifts& shifts) {
   for (Texture& texture : from.textures) to.textures.push_back(std::move(texture));
   for (Material& material : from.materials) {
-    for (std::uint32_t* slot :
-         {&material.ambient_texture, &material.diffuse_texture, &material.specular_texture,
-          &material.emission_texture, &material.opacity_texture, &material.bump_texture})
+    for (std::uint32_t* const slot : texture_slots(material))
       if (*slot != no_texture) *slot += shifts.texture;
     to.materials.push_back(std::move(material));
   }
@@ -101,9 +98,9 @@ void append_materials(SceneDesc& to, SceneDesc& from, const Shifts& shifts) {
 
 } // namespace
 
-std::uint32_t checked_size(std::size_t size, const char* what) {
-  if (size >= no_index) throw LimitError(std::string("too many ") + what);
-  return static_cast<std::uint32_t>(size);
+std::array<std::uint32_t*, 6> texture_slots(Material& material) {
+  return {&material.ambient_texture,  &material.diffuse_texture, &material.specular_texture,
+          &material.emission_texture, &material.opacity_texture, &material.bump_texture};
 }
 
 void pad_normals(SceneDesc& desc) {
@@ -144,12 +141,6 @@ void append_scene(SceneDesc& to, SceneDesc from) {
   append_polygons(to.polygons, from.polygons, shifts);
   append_materials(to, from, shifts);
   for (std::string& name : from.object_names) to.object_names.push_back(std::move(name));
-}
-
-std::array<std::uint32_t, 5> row_counts(const SceneDesc& desc) {
-  return {checked_size(desc.triangles.size(), "triangles"), checked_size(desc.spheres.size(), "spheres"),
-          checked_size(desc.cones.size(), "cones"), checked_size(desc.disks.size(), "disks"),
-          checked_size(desc.polygons.size(), "polygons")};
 }
 
 } // namespace fastrt

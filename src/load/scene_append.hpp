@@ -5,13 +5,9 @@
 #include <fastrt/scene.hpp>
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace fastrt {
-
-// `size` as an id that indices of 32 bits can hold. Throws LimitError beyond.
-std::uint32_t checked_size(std::size_t size, const char* what);
 
 // Adds the primitives, materials, textures and objects of `from`, which has no planes, prototypes or
 // instances. Lights, camera and settings of `to` stay as they are.
@@ -22,7 +18,7 @@ void pad_normals(SceneDesc& desc);
 void pad_uvs(SceneDesc& desc);
 void pad_colors(SceneDesc& desc);
 
-// How many rows there are of each kind that prototypes may hold.
-std::array<std::uint32_t, 5> row_counts(const SceneDesc& desc);
+// Where a material says which textures it has.
+std::array<std::uint32_t*, 6> texture_slots(Material& material);
 
 } // namespace fastrt

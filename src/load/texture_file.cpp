@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/texture_file.hpp"
 
+#include "src/load/parallel_for.hpp"
 #include "src/load/source.hpp"
 #include "src/load/text.hpp"
 #include "src/modules/open.hpp"
@@ -17,6 +18,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace fastrt {
 
@@ -122,6 +124,19 @@ TextureFile read_texture(const std::filesystem::path& path, TextureCode code) {
   } catch (const InputError& error) {
     return {nullptr, std::string("can't be read: ") + error.what()};
   }
+}
+
+std::map<TextureKey, TextureFile> read_textures(const std::set<TextureKey>& keys, int threads) {
+  std::map<TextureKey, TextureFile> files;
+  for (const TextureKey& key : keys) files.try_emplace(key);
+  std::vector<std::pair<const TextureKey, TextureFile>*> all;
+  for (auto& file : files) all.push_back(&file);
+  if (!all.empty())
+    parallel_for(all.size(), threads, [&](std::size_t i, std::size_t) {
+      auto& [key, file] = *all[i];
+      file = read_texture(key.first, key.second);
+    });
+  return files;
 }
 
 const char* texture_fault(SceneFolder::Finding finding) {

@@ -6,8 +6,11 @@
 #include <fastrt/texture.hpp>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace fastrt {
 
@@ -25,6 +28,12 @@ struct TextureFile {
 // Reads a picture: PNG, JPEG, EXR, HDR, TGA, PNM, BMP or TIFF, told apart by their first bytes. Opens regular
 // files alone. Throws nothing but std::bad_alloc.
 TextureFile read_texture(const std::filesystem::path& path, TextureCode code);
+
+// A file, and what its codes stand for.
+using TextureKey = std::pair<std::filesystem::path, TextureCode>;
+
+// Reads each file once, on so many threads.
+std::map<TextureKey, TextureFile> read_textures(const std::set<TextureKey>& keys, int threads);
 
 // What is said of a texture file that was found so; "" if it may be opened.
 const char* texture_fault(SceneFolder::Finding finding);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/mtl.hpp"
-#include "src/load/scene_append.hpp"
 #include "src/load/text.hpp"
 #include "src/load/toml_scene.hpp"
+#include "src/scene/row_counts.hpp"
 
 #include <iterator>
 #include <utility>

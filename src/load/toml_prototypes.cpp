@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is shown once, and what is shown again and again.
-#include "src/load/scene_append.hpp"
 #include "src/load/text.hpp"
 #include "src/load/toml_scene.hpp"
+#include "src/scene/row_counts.hpp"
 
 #include <iterator>
 #include <utility>

@@ -2,10 +2,10 @@
 #include "src/load/toml_scene.hpp"
 
 #include "src/load/mtl.hpp"
-#include "src/load/scene_append.hpp"
 #include "src/load/spelling.hpp"
 #include "src/load/text.hpp"
 #include "src/load/warn.hpp"
+#include "src/scene/row_counts.hpp"
 
 #include <fastrt/error.hpp>
 

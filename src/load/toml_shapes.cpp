@@ -3,15 +3,13 @@
 #include "src/load/scene_append.hpp"
 #include "src/load/toml_scene.hpp"
 #include "src/load/triangle_fault.hpp"
+#include "src/scene/row_counts.hpp"
 #include "src/scene/shapes.hpp"
 
 #include <utility>
 
 namespace fastrt {
 namespace {
-
-// A polygon whose vertices are farther from its plane than this share of its size is no plane any more.
-constexpr double most_bent = 1e-3;
 
 template <class Columns>
 void push_owners(const TomlFields& fields, const char* kind, Columns& columns, TomlScene& scene) {
@@ -97,12 +95,7 @@ void check_polygon(const TomlFields& fields, const SceneDesc& desc) {
   const std::size_t row = desc.polygons.contour_end.size() - 1;
   const PolygonPlane plane = plane_of(desc, row);
   if (!plane.usable) fields.fail(fields.place(), "[[polygon]]: its points lie on a line");
-  const auto [first, end] = contours_of(desc.polygons, row);
-  Aabb box;
-  for (std::size_t i = contour_begin(desc.polygons, first); i < desc.polygons.vertex_end[end - 1]; ++i)
-    box.extend(desc.positions[desc.polygons.vertex[i]]);
-  if (plane.deviation > most_bent * static_cast<double>(glm::length(box.extent())))
-    fields.fail(fields.place(), "[[polygon]]: it is not flat");
+  if (!is_flat(desc, row, plane)) fields.fail(fields.place(), "[[polygon]]: it is not flat");
 }
 
 void add_polygon(const TomlFile&, const TomlFields& fields, TomlScene& scene) {

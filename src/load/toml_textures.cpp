@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/load/parallel_for.hpp"
 #include "src/load/scene_append.hpp"
 #include "src/load/text.hpp"
 #include "src/load/toml_scene.hpp"
+#include "src/scene/row_counts.hpp"
 #include "src/scene/threads.hpp"
 
 #include <map>
@@ -77,8 +77,7 @@ void wish_for(const TomlFile& file, const TomlValue& name, TomlTexture& wish, co
 // Materials do without textures that have no picture.
 void leave_out(const std::vector<bool>& without_picture, SceneDesc& desc) {
   for (Material& m : desc.materials)
-    for (std::uint32_t* slot : {&m.ambient_texture, &m.diffuse_texture, &m.specular_texture,
-                                &m.emission_texture, &m.opacity_texture, &m.bump_texture})
+    for (std::uint32_t* const slot : texture_slots(m))
       if (*slot != no_texture && without_picture[*slot]) *slot = no_texture;
 }
 
@@ -125,16 +124,11 @@ std::uint32_t read_toml_texture(const TomlFile& file, const TomlValue& value, Te
 }
 
 void load_toml_textures(TomlScene& scene) {
-  std::map<std::pair<std::filesystem::path, TextureCode>, TextureFile> files;
+  std::set<TextureKey> keys;
   for (const TomlTexture& wish : scene.textures)
-    if (wish.fault.empty()) files.try_emplace({wish.path, wish.code});
-  std::vector<decltype(files)::value_type*> all;
-  for (auto& file : files) all.push_back(&file);
-  if (!all.empty())
-    parallel_for(all.size(), thread_count(scene.options.threads), [&](std::size_t i, std::size_t) {
-      all[i]->second = read_texture(all[i]->first.first, all[i]->first.second);
-    });
-  std::set<std::pair<std::filesystem::path, TextureCode>> told; // once for each file
+    if (wish.fault.empty()) keys.emplace(wish.path, wish.code);
+  const std::map<TextureKey, TextureFile> files = read_textures(keys, thread_count(scene.options.threads));
+  std::set<TextureKey> told; // once for each file
   std::vector<bool> without_picture(scene.desc.textures.size());
   for (const TomlTexture& wish : scene.textures) {
     const bool found = wish.fault.empty();

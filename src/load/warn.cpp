@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/load/warn.hpp"
 
-#include "src/load/scene_append.hpp"
+#include "src/scene/row_counts.hpp"
 
 #include <fastrt/error.hpp>
 

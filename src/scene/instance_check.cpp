@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prototypes and instances before anything is traced.
 #include "src/scene/finite.hpp"
+#include "src/scene/row_counts.hpp"
 #include "src/scene/scene_check.hpp"
 #include "src/scene/shapes.hpp"
 
 #include <fastrt/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace fastrt {
 namespace {
-
-constexpr const char* kind_names[] = {"triangles", "spheres", "cones", "disks", "polygons"};
 
 [[noreturn]] void refuse(const char* what, std::size_t i, const std::string& why) {
   throw InputError(std::string(what) + " " + std::to_string(i) + ": " + why);
 }
 
 void check_ranges(const SceneDesc& desc) {
-  const std::size_t counts[] = {desc.triangles.size(), desc.spheres.size(), desc.cones.size(),
-                                desc.disks.size(), desc.polygons.size()};
+  const std::array<std::size_t, 5> counts = counts_of_rows(desc);
   for (std::size_t i = 0; i < desc.prototypes.size(); ++i)
     for (std::size_t kind = 0; kind < 5; ++kind) {
       const std::uint32_t begin = desc.prototypes[i].begin[kind], end = desc.prototypes[i].end[kind];
       if (begin <= end && end <= counts[kind]) continue;
       refuse("prototype", i,
-             std::string("has the ") + kind_names[kind] + " from " + std::to_string(begin) + " to " +
+             std::string("has the ") + row_kind_names[kind] + " from " + std::to_string(begin) + " to " +
                  std::to_string(end) + ", but there are " + std::to_string(counts[kind]));
     }
 }
@@ -43,7 +42,7 @@ void check_apart(const SceneDesc& desc) {
     for (std::size_t k = 1; k < order.size(); ++k)
       if (desc.prototypes[order[k]].begin[kind] < desc.prototypes[order[k - 1]].end[kind])
         refuse("prototype", std::max(order[k], order[k - 1]),
-               std::string("shares ") + kind_names[kind] + " with prototype " +
+               std::string("shares ") + row_kind_names[kind] + " with prototype " +
                    std::to_string(std::min(order[k], order[k - 1])));
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prototypes and instances as rays meet them.
 #include "src/scene/finite.hpp"
+#include "src/scene/row_counts.hpp"
 #include "src/scene/shapes.hpp"
 
 #include <algorithm>
@@ -39,18 +40,13 @@ double growth_of(const Affine& map, const Vec3d (&rows)[3]) {
   return std::max(largest(grown(0) + grown(1) + grown(2)), 4 * stretch);
 }
 
-std::size_t row_count(const SceneDesc& desc, std::size_t kind) {
-  const std::size_t counts[] = {desc.triangles.size(), desc.spheres.size(), desc.cones.size(),
-                                desc.disks.size(), desc.polygons.size()};
-  return counts[kind];
-}
-
 } // namespace
 
 KindRanges world_rows(const SceneDesc& desc) {
   KindRanges world;
+  const std::array<std::size_t, 5> counts = counts_of_rows(desc);
   for (std::size_t kind = 0; kind < world.size(); ++kind) {
-    const auto count = static_cast<std::uint32_t>(row_count(desc, kind));
+    const auto count = static_cast<std::uint32_t>(counts[kind]);
     std::vector<RowRange> taken;
     for (const Prototype& prototype : desc.prototypes)
       if (prototype.begin[kind] < std::min(prototype.end[kind], count))

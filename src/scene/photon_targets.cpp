@@ -21,13 +21,6 @@ bool is_specular(const Material& m) {
   return mirrors || bends;
 }
 
-const Aabb& shape_box(const Scene& scene, PrimitiveKind kind, std::uint32_t row) {
-  const SceneShapes& shapes = scene.shapes();
-  if (kind == PrimitiveKind::cone) return shapes.cones[row].box;
-  if (kind == PrimitiveKind::disk) return shapes.disks[row].box;
-  return shapes.polygons[row].box;
-}
-
 template <class Use>
 void cover(const Aabb& box, const Use& use) {
   const DVec3 low(box.lower), high(box.upper);
@@ -48,7 +41,7 @@ void cover(const Scene& scene, std::uint32_t primitive, const Use& use) {
     const SphereColumns& s = scene.spheres();
     use(DVec3(s.x[row], s.y[row], s.z[row]), static_cast<double>(s.radius[row]));
   } else {
-    cover(shape_box(scene, kind, row), use);
+    cover(box_of_shape(scene.shapes(), kind, row), use);
   }
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "src/scene/row_counts.hpp"
+
 #include <fastrt/error.hpp>
 #include <fastrt/scene.hpp>
 
@@ -8,11 +10,6 @@
 namespace fastrt {
 
 namespace {
-
-std::uint32_t checked_id(std::size_t id, const char* what) {
-  if (id >= no_index) throw LimitError(std::string("too many ") + what);
-  return static_cast<std::uint32_t>(id);
-}
 
 void check_count(std::size_t count, std::size_t vertex_count, const char* what) {
   if (count != 0 && count != vertex_count)
@@ -47,22 +44,16 @@ void append_optional(const IndexColumns& columns, std::size_t triangle_count, bo
     columns[i % 3]->push_back(present ? first + indices[i] : no_index);
 }
 
-std::array<std::uint32_t, 5> row_counts(const SceneDesc& desc) {
-  return {checked_id(desc.triangles.size(), "triangles"), checked_id(desc.spheres.size(), "spheres"),
-          checked_id(desc.cones.size(), "cones"), checked_id(desc.disks.size(), "disks"),
-          checked_id(desc.polygons.size(), "polygons")};
-}
-
 } // namespace
 
 std::uint32_t SceneBuilder::add_material(Material material) {
-  const std::uint32_t id = checked_id(desc_.materials.size(), "materials");
+  const std::uint32_t id = checked_size(desc_.materials.size(), "materials");
   desc_.materials.push_back(std::move(material));
   return id;
 }
 
 std::uint32_t SceneBuilder::add_texture(Texture texture) {
-  const std::uint32_t id = checked_id(desc_.textures.size(), "textures");
+  const std::uint32_t id = checked_size(desc_.textures.size(), "textures");
   desc_.textures.push_back(std::move(texture));
   return id;
 }
@@ -74,11 +65,11 @@ std::uint32_t SceneBuilder::add_mesh(std::span<const Vec3> positions, std::span<
   check_count(uvs.size(), positions.size(), "texture coordinates");
   check_count(colors.size(), positions.size(), "colours");
   check_indices(positions.size(), indices);
-  const std::uint32_t object = checked_id(desc_.object_names.size(), "objects");
-  const std::uint32_t first_position = checked_id(desc_.positions.size(), "vertices");
-  const std::uint32_t first_normal = checked_id(desc_.normals.size(), "normals");
-  const std::uint32_t first_uv = checked_id(desc_.uvs.size(), "texture coordinates");
-  checked_id(desc_.positions.size() + positions.size(), "vertices");
+  const std::uint32_t object = checked_size(desc_.object_names.size(), "objects");
+  const std::uint32_t first_position = checked_size(desc_.positions.size(), "vertices");
+  const std::uint32_t first_normal = checked_size(desc_.normals.size(), "normals");
+  const std::uint32_t first_uv = checked_size(desc_.uvs.size(), "texture coordinates");
+  checked_size(desc_.positions.size() + positions.size(), "vertices");
 
   desc_.object_names.push_back(std::move(name));
   for (const Vec3& position : positions) desc_.positions.push_back(position);
@@ -105,7 +96,7 @@ std::uint32_t SceneBuilder::add_mesh(std::span<const Vec3> positions, std::span<
 }
 
 std::uint32_t SceneBuilder::add_object(std::string name) {
-  const std::uint32_t object = checked_id(desc_.object_names.size(), "objects");
+  const std::uint32_t object = checked_size(desc_.object_names.size(), "objects");
   desc_.object_names.push_back(std::move(name));
   return object;
 }
@@ -160,14 +151,14 @@ std::uint32_t SceneBuilder::add_polygon(std::span<const std::vector<Vec3>> conto
   PolygonColumns& polygons = desc_.polygons;
   for (const std::vector<Vec3>& contour : contours) {
     for (const Vec3& position : contour) {
-      polygons.vertex.push_back(checked_id(desc_.positions.size(), "vertices"));
+      polygons.vertex.push_back(checked_size(desc_.positions.size(), "vertices"));
       desc_.positions.push_back(position);
     }
-    polygons.vertex_end.push_back(checked_id(polygons.vertex.size(), "vertices"));
+    polygons.vertex_end.push_back(checked_size(polygons.vertex.size(), "vertices"));
   }
   if (desc_.colors.size() != 0)
     while (desc_.colors.size() < desc_.positions.size()) desc_.colors.push_back(Vec3(1.0F));
-  polygons.contour_end.push_back(checked_id(polygons.vertex_end.size(), "contours"));
+  polygons.contour_end.push_back(checked_size(polygons.vertex_end.size(), "contours"));
   polygons.material.push_back(material);
   polygons.object.push_back(object);
   return object;
@@ -192,7 +183,7 @@ void SceneBuilder::begin_prototype() {
 
 std::uint32_t SceneBuilder::end_prototype() {
   if (!open_) throw InputError("a prototype ends that has not begun");
-  const std::uint32_t id = checked_id(desc_.prototypes.size(), "prototypes");
+  const std::uint32_t id = checked_size(desc_.prototypes.size(), "prototypes");
   open_->end = row_counts(desc_);
   desc_.prototypes.push_back(*open_);
   open_.reset();

@@ -195,6 +195,22 @@ PolygonPlane plane_of(const SceneDesc& desc, std::size_t polygon) {
   return plane;
 }
 
+bool is_flat(const SceneDesc& desc, std::size_t polygon, const PolygonPlane& plane) {
+  constexpr double most_bent = 1e-3;
+  const PolygonColumns& polygons = desc.polygons;
+  const auto [first, last] = contours_of(polygons, polygon);
+  Aabb box;
+  for (std::size_t i = contour_begin(polygons, first); i < polygons.vertex_end[last - 1]; ++i)
+    box.extend(desc.positions[polygons.vertex[i]]);
+  return !(plane.deviation > most_bent * static_cast<double>(glm::length(box.extent())));
+}
+
+const Aabb& box_of_shape(const SceneShapes& shapes, PrimitiveKind kind, std::size_t row) {
+  if (kind == PrimitiveKind::cone) return shapes.cones[row].box;
+  if (kind == PrimitiveKind::disk) return shapes.disks[row].box;
+  return shapes.polygons[row].box;
+}
+
 SceneShapes make_shapes(const SceneDesc& desc) {
   SceneShapes shapes;
   for (std::size_t i = 0; i < desc.cones.size(); ++i) shapes.cones.push_back(make_cone(desc.cones, i));

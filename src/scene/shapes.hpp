@@ -72,6 +72,9 @@ struct SceneShapes {
   std::size_t bytes() const noexcept;
 };
 
+// Of a cone, disk or polygon.
+const Aabb& box_of_shape(const SceneShapes& shapes, PrimitiveKind kind, std::size_t row);
+
 // Of a scene that has been checked.
 SceneShapes make_shapes(const SceneDesc& desc);
 
@@ -109,5 +112,8 @@ struct PolygonPlane {
   bool usable;
 };
 PolygonPlane plane_of(const SceneDesc& desc, std::size_t polygon);
+
+// Whether no vertex is farther from the polygon's plane than a thousandth of the polygon's size.
+bool is_flat(const SceneDesc& desc, std::size_t polygon, const PolygonPlane& plane);
 
 } // namespace fastrt

@@ -56,11 +56,7 @@ PrimitiveBox sphere_box(const Scene& scene, std::uint32_t row) {
 }
 
 PrimitiveBox shape_box(const Scene& scene, PrimitiveKind kind, std::uint32_t row) {
-  const SceneShapes& shapes = scene.shapes();
-  const std::uint32_t id = scene.first_of(kind) + row;
-  if (kind == PrimitiveKind::cone) return box_of(shapes.cones[row].box, id, shape_group);
-  if (kind == PrimitiveKind::disk) return box_of(shapes.disks[row].box, id, shape_group);
-  return box_of(shapes.polygons[row].box, id, shape_group);
+  return box_of(box_of_shape(scene.shapes(), kind, row), scene.first_of(kind) + row, shape_group);
 }
 
 // Writes the boxes of some rows of a kind; returns where the next go.

@@ -2,8 +2,6 @@
 #include "src/scene/shapes.hpp"
 #include "src/trace/tracer_parts.hpp"
 
-#include <limits>
-
 namespace fastrt {
 namespace {
 
@@ -94,10 +92,7 @@ const Aabb& box_of(const Scene& scene, std::uint32_t primitive) {
   if (primitive >= scene.primitive_count())
     return scene.shapes().instances[primitive - scene.primitive_count()].box;
   const PrimitiveKind kind = scene.kind(primitive);
-  const std::uint32_t row = primitive - scene.first_of(kind);
-  if (kind == PrimitiveKind::cone) return scene.shapes().cones[row].box;
-  if (kind == PrimitiveKind::disk) return scene.shapes().disks[row].box;
-  return scene.shapes().polygons[row].box;
+  return box_of_shape(scene.shapes(), kind, primitive - scene.first_of(kind));
 }
 
 } // namespace
@@ -151,13 +146,12 @@ ShapeView shape_view(const Scene& scene, const ShapeRows& rows) {
 }
 
 Column<ShapeBlock> shape_blocks(const Scene& scene, const Column<std::int32_t>& slots) {
-  constexpr float infinite = std::numeric_limits<float>::infinity();
   Column<ShapeBlock> blocks(slots.size() / block_size);
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     ShapeBlock& block = blocks[slot / block_size];
     const std::size_t i = slot % block_size;
     block.primitive[i] = slots[slot];
-    Aabb box{Vec3(infinite), Vec3(-infinite)}; // a row that is not used is met by nothing
+    Aabb box{Vec3(infinity), Vec3(-infinity)}; // a row that is not used is met by nothing
     if (slots[slot] >= 0) box = box_of(scene, static_cast<std::uint32_t>(slots[slot]));
     block.low_x[i] = box.lower.x;
     block.low_y[i] = box.lower.y;
