@@ -4,8 +4,8 @@
 
 #include "src/cli/help.hpp"
 #include "src/cli/parse.hpp"
-#include "src/film/frame.hpp"
 #include "src/load/spelling.hpp"
+#include "src/scene/picture_limits.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -18,9 +18,6 @@
 
 namespace fastrt::cli {
 namespace {
-
-constexpr int most_samples = 65536;
-constexpr int deepest = 64;
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
@@ -117,7 +114,8 @@ void add_sampling_options(OptionAdder& add, Options& options) {
   add.group("Sampling (what is not given is the scene's, or as in brackets)");
   add.value("-s,--spp", "N", "Samples per pixel [1: the pixel's centre]",
             [&](const std::string& name, const std::string& text) {
-              options.samples_per_pixel = static_cast<int>(parse_integer(name, text, 1, most_samples));
+              options.samples_per_pixel =
+                  static_cast<int>(parse_integer(name, text, 1, most_samples_a_pixel));
             });
   add.value(
       "--filter", "NAME", "How samples make a pixel: box, tent, gaussian or mitchell [tent]",
@@ -129,7 +127,7 @@ void add_sampling_options(OptionAdder& add, Options& options) {
             });
   add.value("--max-spp", "N", "How many those may get [16 times --spp]",
             [&](const std::string& name, const std::string& text) {
-              options.most_samples = static_cast<int>(parse_integer(name, text, 1, 16 * most_samples));
+              options.most_samples = static_cast<int>(parse_integer(name, text, 1, most_adaptive_samples));
             });
   add.value("--seed", "N", "Another set of samples [0]",
             [&](const std::string& name, const std::string& text) {
@@ -139,8 +137,9 @@ void add_sampling_options(OptionAdder& add, Options& options) {
   add.value("--max-depth", "N", "Bounces after the camera ray, at most 64 [8]",
             [&](const std::string& name, const std::string& text) {
               const auto depth = parse_integer(name, text, 0, std::numeric_limits<int>::max());
-              if (depth > deepest) options.warnings.push_back(name + ": 64 bounces are the most, 64 taken");
-              options.max_depth = static_cast<int>(depth > deepest ? deepest : depth);
+              if (depth > most_bounces)
+                options.warnings.push_back(name + ": 64 bounces are the most, 64 taken");
+              options.max_depth = static_cast<int>(depth > most_bounces ? most_bounces : depth);
             });
   add.value("--min-contribution", "X", "Drop rays that weigh less, 0 to 1 [0.00390625]",
             [&](const std::string& name, const std::string& text) {
@@ -240,7 +239,7 @@ void add_light_options(CLI::App& app, OptionAdder& add, Options& options) {
       ->group(light_group);
   add.value("--light-samples", "N", "Shadow rays to each light with a size [16]",
             [&](const std::string& name, const std::string& text) {
-              options.light_samples = static_cast<int>(parse_integer(name, text, 1, 1024));
+              options.light_samples = static_cast<int>(parse_integer(name, text, 1, most_light_samples));
             });
   add.value(
       "--ambient", "R,G,B", "Light that is everywhere",

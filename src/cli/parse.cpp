@@ -2,6 +2,7 @@
 #include "src/cli/parse.hpp"
 
 #include "src/cli/read_numbers.hpp"
+#include "src/scene/picture_limits.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -14,8 +15,6 @@
 
 namespace fastrt::cli {
 namespace {
-
-constexpr int largest_side = 65536;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view text, const std::string& expected) {
   throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not " + expected);
@@ -62,7 +61,7 @@ Resolution parse_resolution(std::string_view option, std::string_view text) {
   const std::size_t cross = text.find_first_of("xX,");
   if (cross == std::string_view::npos) refuse(option, text, "a resolution such as 640x480");
   const auto side = [&](std::string_view digits) {
-    return static_cast<int>(parse_integer(option, digits, 1, largest_side));
+    return static_cast<int>(parse_integer(option, digits, 1, most_pixels_a_side));
   };
   return {side(text.substr(0, cross)), side(text.substr(cross + 1))};
 }
@@ -79,7 +78,7 @@ Crop parse_crop(std::string_view option, std::string_view text) {
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t comma = rest.find(',');
     if ((comma == std::string_view::npos) != (i == 3)) refuse(option, text, "four whole numbers x0,y0,x1,y1");
-    sides[i] = static_cast<int>(parse_integer(option, rest.substr(0, comma), 0, largest_side));
+    sides[i] = static_cast<int>(parse_integer(option, rest.substr(0, comma), 0, most_pixels_a_side));
     rest = i == 3 ? std::string_view() : rest.substr(comma + 1);
   }
   const Crop crop{sides[0], sides[1], sides[2], sides[3]};

@@ -3,6 +3,7 @@
 
 #include "src/film/parallel_fill.hpp"
 #include "src/film/srgb.hpp"
+#include "src/scene/picture_limits.hpp"
 #include "src/scene/threads.hpp"
 
 #include <fastrt/error.hpp>
@@ -21,8 +22,8 @@ void check_photons(const RenderSettings& settings) {
   if (settings.photons < 1 || settings.photons > most_photons)
     throw UsageError("the photons must be from 1 to 2^30, not " + std::to_string(settings.photons));
   if (settings.caustic_photons < 0 || settings.caustic_photons > most_caustic_photons)
-    throw UsageError("the photons of caustics must be from 0 to 100000000, not " +
-                     std::to_string(settings.caustic_photons));
+    throw UsageError("the photons of caustics must be from 0 to " + std::to_string(most_caustic_photons) +
+                     ", not " + std::to_string(settings.caustic_photons));
   if (!(settings.caustic_radius >= 0.0F && std::isfinite(settings.caustic_radius)))
     throw UsageError("the radius of caustics must not be negative");
   if (settings.integrator != Integrator::forward) return;
@@ -43,9 +44,11 @@ void check_bounces(const RenderSettings& settings) {
 } // namespace
 
 void check(const RenderSettings& settings) {
-  if (settings.width < 1 || settings.width > 65536 || settings.height < 1 || settings.height > 65536)
+  if (settings.width < 1 || settings.width > most_pixels_a_side || settings.height < 1 ||
+      settings.height > most_pixels_a_side)
     throw UsageError("picture size " + std::to_string(settings.width) + "x" +
-                     std::to_string(settings.height) + " is not within 1..65536");
+                     std::to_string(settings.height) + " is not within 1.." +
+                     std::to_string(most_pixels_a_side));
   if (settings.samples_per_pixel < 1)
     throw UsageError("samples per pixel must be at least 1, not " +
                      std::to_string(settings.samples_per_pixel));
@@ -61,8 +64,9 @@ void check(const RenderSettings& settings) {
   if (settings.most_samples != 0 && settings.most_samples < settings.samples_per_pixel)
     throw UsageError("at most " + std::to_string(settings.most_samples) + " samples are less than the " +
                      std::to_string(settings.samples_per_pixel) + " of each pixel");
-  if (settings.light_samples < 1 || settings.light_samples > 1024)
-    throw UsageError("light samples must be from 1 to 1024, not " + std::to_string(settings.light_samples));
+  if (settings.light_samples < 1 || settings.light_samples > most_light_samples)
+    throw UsageError("light samples must be from 1 to " + std::to_string(most_light_samples) + ", not " +
+                     std::to_string(settings.light_samples));
   check_bounces(settings);
   check_photons(settings);
   for (const Aov aov : settings.aovs)

@@ -10,10 +10,6 @@
 
 namespace fastrt {
 
-inline constexpr int most_bounces = 64;
-inline constexpr std::int64_t most_photons = std::int64_t{1} << 30;
-inline constexpr std::int64_t most_caustic_photons = 100000000;
-
 // Throws UsageError for settings out of their ranges.
 void check(const RenderSettings& settings);
 

@@ -6,6 +6,7 @@
 #include "src/load/nff_tokens.hpp"
 #include "src/load/text.hpp"
 #include "src/load/warn.hpp"
+#include "src/scene/picture_limits.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -20,7 +21,6 @@ namespace fastrt {
 namespace {
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
-constexpr std::size_t most_pixels_a_side = 65536;
 constexpr std::size_t most_vertices = std::size_t{1} << 24U;
 
 // The file's angle lies between the middles of the outermost pixels, a camera's between their edges.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables [camera] and [picture].
 #include "src/load/toml_scene.hpp"
+#include "src/scene/picture_limits.hpp"
 
 #include <fastrt/error.hpp>
 
@@ -99,17 +100,16 @@ void read_toml_picture(const TomlFile& file, const TomlNode& node, TomlScene& sc
       "width", "height",   "spp",       "max_spp",          "filter",
       "seed",  "adaptive", "max_depth", "min_contribution", "light_samples"};
   static constexpr std::string_view filters[] = {"box", "tent", "gaussian", "mitchell"};
-  constexpr int most_pixels_a_side = 65536;
   const TomlFields fields(file.name, node, "[picture]", keys);
   if (fields.has("width") || fields.has("height")) {
     scene.desc.width = static_cast<int>(fields.need("width").integer(1, most_pixels_a_side));
     scene.desc.height = static_cast<int>(fields.need("height").integer(1, most_pixels_a_side));
   }
   PictureSettings& picture = scene.desc.picture;
-  read_count(fields, "spp", 1, 65536, picture.samples_per_pixel);
-  read_count(fields, "max_spp", 1, 16 * 65536, picture.most_samples);
-  read_count(fields, "light_samples", 1, 1024, picture.light_samples);
-  read_count(fields, "max_depth", 0, 64, picture.max_depth);
+  read_count(fields, "spp", 1, most_samples_a_pixel, picture.samples_per_pixel);
+  read_count(fields, "max_spp", 1, most_adaptive_samples, picture.most_samples);
+  read_count(fields, "light_samples", 1, most_light_samples, picture.light_samples);
+  read_count(fields, "max_depth", 0, most_bounces, picture.max_depth);
   read_count(fields, "seed", 0, std::numeric_limits<std::uint32_t>::max(), picture.seed);
   if (const auto filter = fields.find("filter"))
     picture.filter = static_cast<PixelFilter>(filter->choice(filters));

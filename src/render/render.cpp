@@ -9,6 +9,7 @@
 #include "src/render/forward.hpp"
 #include "src/render/part_done.hpp"
 #include "src/render/srgb8_tile.hpp"
+#include "src/scene/picture_limits.hpp"
 #include "src/scene/threads.hpp"
 #include "src/trace/point_media.hpp"
 
