@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG, 8 bits a channel. Stripes of rows are converted, filtered and compressed by themselves, in parallel;
 // each becomes an IDAT chunk.
-#include "src/scene/threads.hpp"
 #include "src/write/checksum.hpp"
 #include "src/write/deflate.hpp"
 #include "src/write/formats.hpp"
 #include "src/write/png_filter.hpp"
+#include "src/write/stripes.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <exception>
 #include <memory>
+#include <utility>
 
 namespace fastrt {
 
 namespace {
 
-constexpr std::size_t pixel = 3; // bytes
+constexpr std::size_t pixel = stripe_pixel_bytes;
 
 void put_word(Bytes& out, std::uint32_t word) {
   for (const unsigned shift : {24U, 16U, 8U, 0U}) out.push_back(static_cast<unsigned char>(word >> shift));
@@ -79,37 +78,11 @@ Stripe encode_stripe(const Picture& picture, std::size_t first, std::size_t last
   return stripe;
 }
 
-// How many rows make about 128 KB; the picture alone decides, so that the file does not depend on the
-// threads.
-std::size_t rows_per_stripe(const Picture& picture) {
-  return std::max<std::size_t>(1,
-                               (std::size_t{128} << 10U) / (pixel * static_cast<std::size_t>(picture.width)));
-}
-
-std::vector<Stripe> encode_stripes(const Picture& picture) {
-  const auto height = static_cast<std::size_t>(picture.height);
-  const std::size_t rows = rows_per_stripe(picture);
-  std::vector<Stripe> stripes((height + rows - 1) / rows);
-  const auto count = static_cast<std::ptrdiff_t>(stripes.size());
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic) num_threads(thread_count(picture.threads)) if (count > 1)
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    try {
-      const std::size_t first = static_cast<std::size_t>(i) * rows;
-      stripes[static_cast<std::size_t>(i)] = encode_stripe(picture, first, std::min(height, first + rows));
-    } catch (...) {
-#pragma omp critical(fastrt_encode_stripes)
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-  return stripes;
-}
-
 } // namespace
 
 Bytes encode_png(const Picture& picture) {
-  const std::vector<Stripe> stripes = encode_stripes(picture);
+  const auto stripes = encode_stripes<Stripe>(
+      picture, [&](std::size_t first, std::size_t last) { return encode_stripe(picture, first, last); });
   Bytes out;
   std::size_t size = 256;
   for (const Stripe& stripe : stripes) size += stripe.chunk.size();

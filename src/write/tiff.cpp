@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // TIFF 6.0, 8 bits a channel: strips with horizontal prediction, each a zlib stream. By hand, because
 // OpenImageIO 2.4's writer fails on the Exif directory that it adds by itself.
-#include "src/scene/threads.hpp"
 #include "src/write/checksum.hpp"
 #include "src/write/deflate.hpp"
 #include "src/write/formats.hpp"
+#include "src/write/stripes.hpp"
 
 #include <fastrt/error.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <exception>
 #include <limits>
 
 namespace fastrt {
 
 namespace {
 
-constexpr std::size_t pixel = 3; // bytes
+constexpr std::size_t pixel = stripe_pixel_bytes;
 
 // Little endian, as the file's first two bytes say.
 void put(Bytes& out, std::uint64_t value, unsigned bytes) {
@@ -48,25 +47,6 @@ Bytes encode_strip(const Picture& picture, std::size_t first, std::size_t last) 
   return strip;
 }
 
-std::vector<Bytes> encode_strips(const Picture& picture, std::size_t rows) {
-  const auto height = static_cast<std::size_t>(picture.height);
-  std::vector<Bytes> strips((height + rows - 1) / rows);
-  const auto count = static_cast<std::ptrdiff_t>(strips.size());
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic) num_threads(thread_count(picture.threads)) if (count > 1)
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    try {
-      const std::size_t first = static_cast<std::size_t>(i) * rows;
-      strips[static_cast<std::size_t>(i)] = encode_strip(picture, first, std::min(height, first + rows));
-    } catch (...) {
-#pragma omp critical(fastrt_encode_strips)
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-  return strips;
-}
-
 enum Type : std::uint16_t { short_type = 3, long_type = 4, rational_type = 5 };
 
 struct Field {
@@ -86,9 +66,9 @@ std::uint32_t put_words(Bytes& out, const std::vector<std::uint32_t>& words) {
 } // namespace
 
 Bytes encode_tiff(const Picture& picture) {
-  const auto rows = static_cast<std::uint32_t>(std::max<std::size_t>(
-      1, (std::size_t{128} << 10U) / (pixel * static_cast<std::size_t>(picture.width))));
-  const std::vector<Bytes> strips = encode_strips(picture, rows);
+  const auto rows = static_cast<std::uint32_t>(rows_per_stripe(picture));
+  const auto strips = encode_stripes<Bytes>(
+      picture, [&](std::size_t first, std::size_t last) { return encode_strip(picture, first, last); });
   Bytes out = {'I', 'I', 42, 0, 0, 0, 0, 0};
   std::vector<std::uint32_t> offsets, sizes;
   for (const Bytes& strip : strips) {
