@@ -15,16 +15,6 @@
 namespace fastrt::reference {
 namespace {
 
-float spot_profile(const Light& light, const Vec3& direction) {
-  const SpotCone cone = spot_cone(light);
-  const float x = glm::dot(direction, cone.axis);
-  if (!(x > cone.rim)) return 0.0F;
-  const float y = min((x - cone.rim) * cone.inverse_width, 1.0F);
-  const float soft = (y * y) * (3.0F - 2.0F * y);
-  if (light.exponent == 0.0F) return soft;
-  return soft * (x > 0.0F ? shared_pow(x, light.exponent) : 0.0F);
-}
-
 // A direction of a frame around the unit vector n, which is its z axis.
 Vec3 turned_to(const Vec3& n, const LightPlace& d) {
   const float sign = std::copysign(1.0F, n.z);
@@ -73,7 +63,7 @@ PhotonNode emit(const Light& light, const LightMesh& mesh, const PhotonLight& ro
   }
   const LightPlace way = cap_direction(place, row.cap_height);
   photon.ray.direction = (way.x * row.u + way.y * row.v) + way.z * row.w;
-  if (light.kind == LightKind::spot) photon.strength = spot_profile(light, photon.ray.direction);
+  if (light.kind == LightKind::spot) photon.strength = spot_share(light, photon.ray.direction);
   return photon;
 }
 

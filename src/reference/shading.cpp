@@ -37,6 +37,16 @@ Vec3 phong_model(const Material& material, const Finish& finish, const Surface& 
   return finish.diffuse * cos_n + finish.specular * highlight;
 }
 
+float spot_share(const Light& light, const Vec3& direction) {
+  const SpotCone cone = spot_cone(light);
+  const float x = glm::dot(direction, cone.axis);
+  if (!(x > cone.rim)) return 0.0F;
+  const float y = min((x - cone.rim) * cone.inverse_width, 1.0F);
+  const float soft = (y * y) * (3.0F - 2.0F * y);
+  if (light.exponent == 0.0F) return soft;
+  return soft * (x > 0.0F ? shared_pow(x, light.exponent) : 0.0F);
+}
+
 namespace {
 
 // A light, or one of the points of a light with a size.
@@ -116,17 +126,6 @@ LightPoint point_of(const Light& light, const LightMesh& mesh, const LightQuesti
   return point;
 }
 
-// How much of a spot light's intensity goes into a direction; 0 outside of its cone.
-float spot_share(const Light& light, const Vec3& to_light) {
-  const SpotCone cone = spot_cone(light);
-  const float x = glm::dot(-to_light, cone.axis);
-  if (!(x > cone.rim)) return 0.0F;
-  const float y = min((x - cone.rim) * cone.inverse_width, 1.0F);
-  const float soft = (y * y) * (3.0F - 2.0F * y);
-  if (light.exponent == 0.0F) return soft;
-  return soft * (x > 0.0F ? shared_pow(x, light.exponent) : 0.0F);
-}
-
 // What every light has to say of one surface.
 class Lighting {
 public:
@@ -156,7 +155,7 @@ float strength_of(const Light& light, const LightPoint& point, const Vec3& way, 
   }
   const float d = std::sqrt(glm::dot(way, way));
   float strength = 1.0F / (light.constant + d * (light.linear + light.quadratic * d));
-  if (light.kind == LightKind::spot) strength = strength * spot_share(light, to_light);
+  if (light.kind == LightKind::spot) strength = strength * spot_share(light, -to_light);
   if (point.share != 0.0F) strength = strength * point.share;
   return strength;
 }

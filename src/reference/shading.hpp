@@ -30,6 +30,9 @@ bool is_transmissive(const Material& material);
 Vec3 phong_model(const Material& material, const Finish& finish, const Surface& surface, const Vec3& to_light,
                  float cos_n);
 
+// How much of a spot light's intensity goes into a unit direction; 0 outside of its cone.
+float spot_share(const Light& light, const Vec3& direction);
+
 inline MeshShares shares_of(const LightMesh& mesh) {
   return {mesh.begin.data(), mesh.scale.data(), static_cast<std::uint32_t>(mesh.triangles.size())};
 }
