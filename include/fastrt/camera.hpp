@@ -7,6 +7,8 @@
 
 namespace fastrt {
 
+// perspective: all rays start at the eye, or on the lens around it. orthographic: they are parallel and start
+// on the plane through the eye that is square to the view.
 enum class Projection { perspective, orthographic };
 
 // A rectangle of the view plane, in units of length along u and v; `left` may be greater than `right`.
@@ -14,8 +16,9 @@ struct Window {
   float left = -1, right = 1, bottom = -1, top = 1;
 };
 
-// Where the picture is taken from, what it looks at and which way is up; then what it shows: a vertical field
-// of view in degrees, or of an orthographic camera a height, or a window of the view plane.
+// Where the picture is taken from, what it looks at and which way is up, all in world space; then what it
+// shows: a vertical field of view in degrees, or of an orthographic camera a height, or a window of the view
+// plane.
 struct Camera {
   Vec3 eye{0.0F, 0.0F, 5.0F};
   Vec3 look_at{0.0F};

@@ -10,6 +10,7 @@
 
 namespace fastrt {
 
+// How scene files are read.
 struct LoadOptions {
   int threads = 0;                   // as RenderSettings::threads
   bool strict = false;               // warnings become InputError

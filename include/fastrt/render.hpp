@@ -25,7 +25,8 @@ enum class Integrator { whitted, forward };
 // AOVs, adaptive samples, the forward integrator and Isa::scalar: those make a linear frame first.
 enum class PixelFormat { linear, srgb8 };
 
-// Columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of a picture.
+// Columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of a picture, counted from its upper left corner. At least one
+// of each, and none outside of the picture.
 struct Crop {
   int x0, y0, x1, y1;
 };
@@ -35,13 +36,13 @@ struct RenderSettings {
   int height = 768; // 1..65536
   // Makes this part of the picture alone: the frame has its size, and each pixel is the whole picture's.
   std::optional<Crop> crop = std::nullopt;
-  int samples_per_pixel = 1;              // 1 is the pixel's centre
+  int samples_per_pixel = 1;              // at least 1, which is the pixel's centre
   PixelFilter filter = PixelFilter::tent; // of 2 samples and more
   std::uint32_t seed = 0;
   // Above 0: samples_per_pixel is what each pixel gets, and those that differ from a neighbour by more than
-  // this (the square root of a channel, cut off at 1) get as many again, and again, up to most_samples.
+  // this (the square root of a channel, cut off at 1) get as many again, and again, up to most_samples. 0..1.
   float adaptive = 0;
-  int most_samples = 0;                // 0: 16 times samples_per_pixel
+  int most_samples = 0;                // at least samples_per_pixel; 0: 16 times that
   int light_samples = 16;              // shadow rays to each light with a size, 1..1024
   int max_depth = 8;                   // bounces after the camera ray, 0..64; 0 traces none
   float min_contribution = 1.0F / 256; // a ray whose largest weight is below this is not traced; 0..1
@@ -61,8 +62,8 @@ struct RenderSettings {
   std::function<void(double)> progress;
 };
 
-// Of photons: each that leaves a light is primary, each way from a surface to the eye is a shadow ray, and
-// what bounces off or scatters is reflected.
+// How many rays were traced, by what they are for. Of photons: each that leaves a light is primary, each way
+// from a surface to the eye is a shadow ray, and what bounces off or scatters is reflected.
 struct RayCounts {
   std::uint64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;
   std::uint64_t total() const noexcept { return primary + shadow + reflected + refracted; }
@@ -100,7 +101,7 @@ struct Frame {
   RayCounts rays;
   RayTests tests;       // of kernels; Isa::scalar and the reference count none
   bool complete = true; // false when the rendering was cancelled: tiles not done are black
-  // Null if it was not asked for.
+  // The plane of an AOV; null if it was not asked for.
   const AovPlane* find(Aov aov) const noexcept;
 };
 
@@ -113,7 +114,7 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
 // checking. Throws as render does.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
-// What differs between two frames of one size and pixel format.
+// What differs between two frames; they must be of one size and pixel format.
 struct FrameDifference {
   std::size_t pixels = 0;     // pixels with a channel that differs in its bits
   std::size_t primitives = 0; // pixels that see another primitive

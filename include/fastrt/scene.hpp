@@ -26,6 +26,7 @@ inline constexpr std::uint32_t no_index = 0xFFFFFFFFU;
 // The instance of a hit in none.
 inline constexpr std::int32_t no_instance = -1;
 
+// Two or three numbers a row, as columns of one length: points, vectors, texture coordinates or colours.
 struct Columns2 {
   Column<float> x, y;
   std::size_t size() const noexcept { return x.size(); }
@@ -49,6 +50,7 @@ struct TriangleColumns {
   std::size_t size() const noexcept { return v0.size(); }
 };
 
+// Spheres around (x, y, z).
 struct SphereColumns {
   Column<float> x, y, z, radius; // radius > 0
   Column<std::uint32_t> material, object;
@@ -66,6 +68,7 @@ struct ConeColumns {
   std::size_t size() const noexcept { return base_radius.size(); }
 };
 
+// Discs square to a normal.
 struct DiskColumns {
   Columns3 center, normal; // the normal may have any length but 0
   Column<float> radius;    // > 0
@@ -105,11 +108,13 @@ struct InstanceColumns {
   std::size_t size() const noexcept { return prototype.size(); }
 };
 
-// A scene while it is being put together: what readers and SceneBuilder fill, and Scene freezes.
+// A scene while it is being put together: what readers and SceneBuilder fill, and Scene freezes. In world
+// space, any unit of length, but for what is in prototypes. The material and object columns of primitives
+// hold one index each.
 struct SceneDesc {
-  Columns3 positions, normals;
-  Columns2 uvs;
-  Columns3 colors; // linear RGB of each position, or empty
+  Columns3 positions, normals; // normals of any length
+  Columns2 uvs;                // (0, 0) is an image's lower left corner
+  Columns3 colors;             // linear RGB of each position, or empty
   TriangleColumns triangles;
   SphereColumns spheres;
   ConeColumns cones;
@@ -201,7 +206,8 @@ private:
   bool has_transmission_ = false;
 };
 
-// Makes a scene in a program, without a file. Ids are counted from 0 in the order of the calls.
+// Makes a scene in a program, without a file. Ids are counted from 0 in the order of the calls, which return
+// them: of primitives that of their object. build() checks the numbers. Throws LimitError where ids run out.
 class SceneBuilder {
 public:
   std::uint32_t add_material(Material material);

@@ -11,6 +11,7 @@
 
 namespace fastrt {
 
+// The primitive of a ray that hits nothing.
 inline constexpr std::int32_t no_primitive = -1;
 
 // What the caller knows about rays that are handed over together. It never changes an answer, only the time.
@@ -71,6 +72,7 @@ struct TracerSettings {
 // once.
 class Tracer {
 public:
+  // Builds the hierarchy. Throws UsageError for an ISA that this machine lacks, and LimitError.
   explicit Tracer(Scene scene, const TracerSettings& settings = {});
   ~Tracer();
   Tracer(Tracer&&) noexcept;
