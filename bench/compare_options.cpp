@@ -3,7 +3,7 @@
 
 #include <fastrt/error.hpp>
 
-#include <algorithm>
+#include <cstdio>
 
 #include "bench/arguments.hpp"
 #include "bench/ray_sets.hpp"

@@ -37,7 +37,7 @@ struct Options {
   std::string json;
 };
 
-// Of one thread, a second, except bandwidth_all.
+// Of one thread, a second, except memory_all.
 struct Limits {
   std::vector<std::pair<Isa, double>> operations;
   double instructions = 0, memory = 0, copy = 0, cache = 0, memory_all = 0;

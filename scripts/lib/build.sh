@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Shared by scripts/run, scripts/test and .ci/run: packages, configuring, building. To be sourced.
+# Shared by scripts/run, scripts/test, scripts/bench and .ci/run: packages, configuring, building. To be sourced.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 

@@ -35,9 +35,9 @@ void add_items(const Items& items, const BuildRange& range, const BinMapping& ma
 }
 
 // Moves items begin .. end - 1 to their sides, keeping their order, and into the sides' bins only if these
-// are asked for.
-// What a primitive's bins wait for is kept short, or they are late for the next primitives': the axis is
-// looked at by itself, in all lanes, and both sides' mappings are at hand before it is known which counts.
+// are asked for. What a primitive's bins wait for is kept short, or they are late for the next primitives':
+// the axis is looked at by itself, in all lanes, and both sides' mappings are at hand before it is known
+// which counts.
 template <bool into_bins, class Items>
 void move_items(const Items& items, const LaneBox& centroids, std::size_t begin, std::size_t end,
                 const BinSplit& split, const SplitSides& sides, Bins* const bins[2]) {

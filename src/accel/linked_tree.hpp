@@ -39,8 +39,7 @@ public:
 
   double half_area(std::uint32_t node) const;
 
-  // Whether `node` can become the sibling of `target` and the tree stays a tree that is not
-  // too deep.
+  // Whether `node` can become the sibling of `target` and the tree stays a tree that is not too deep.
   bool can_move(std::uint32_t node, std::uint32_t target) const;
 
   // Takes `node` and its parent out, puts the parent where `target` is and both below it. Boxes are as tight

@@ -69,8 +69,7 @@ struct WideTree {
 };
 
 // Collapses a binary tree to the wide one of least sah_cost that can be made of its boxes. A leaf may take in
-// several leaves of the binary tree.
-// Throws LimitError for more than max_blocks blocks of a group.
+// several leaves of the binary tree. Throws LimitError for more than max_blocks blocks of a group.
 WideTree collapse(const BinaryTree& tree, const BuildSettings& settings);
 
 // SAH cost of the wide tree: sum over nodes of area / root area (one visit each), and over leaves of

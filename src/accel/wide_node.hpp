@@ -22,7 +22,7 @@ struct alignas(64) WideNode {
   float lower_y[wide_children], upper_y[wide_children];
   float lower_z[wide_children], upper_z[wide_children];
   std::uint32_t child[wide_children];
-  std::uint32_t size[wide_children]; // the largest side of each box, see box_size()
+  std::uint32_t size[wide_children]; // the largest side of each box, as box_size() takes it
 };
 
 // Sizes are powers of two, no less than the box's largest side, by their exponent: 8 bits.

@@ -3,6 +3,7 @@
 
 #include "src/load/text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines, words and names of OBJ and MTL files.
+// Lines, words and names of scene files of all formats.
 #pragma once
 
 #include <cstddef>

@@ -79,8 +79,8 @@ struct DecodedPicture {
   char error[256]; // of damage too
 };
 
-// Returns 1, or 0: with `error` set, or of JPEG files also without, if one is broken, unusual or too large;
-// OpenImageIO may know what to do with it, or what to say. Throws nothing.
+// Returns 1, or 0: with `error` set, or of unusual JPEG files without, which OpenImageIO may read. Throws
+// nothing.
 using PictureDecode = int(const PictureFile* file, DecodedPicture* texture);
 
 } // namespace fastrt

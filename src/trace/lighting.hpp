@@ -66,8 +66,7 @@ FASTRT_INLINE std::uint32_t face_light(const LightRow& light, const SurfaceBatch
 }
 
 // The shadow rays of lanes i .., row for row; those not in `bits` have no room between t_min and t_max, and
-// nothing else of them counts. instances: whether the
-// scene has any.
+// nothing else of them counts. instances: whether the scene has any.
 FASTRT_INLINE void make_shadow_rays(const LightRow& light, const SurfaceBatch& s, const LightBatch& seen,
                                     std::uint32_t bits, bool instances, int i, RayBatch& rays) {
   const PathF none(0.0F);
