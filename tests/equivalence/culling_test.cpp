@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Without bounding volumes every ray meets every primitive, and pictures stay the same; and what is counted.
-#include "tests/equivalence/random_shots.hpp"
+#include "tests/equivalence/random_instances.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +15,15 @@ Frame rendered(const Shot& shot, Isa isa, bool culling) {
   return render(Tracer(Scene(shot.scene), settings), shot.camera, shot.settings);
 }
 
+void expect_same_without(const Shot& shot) {
+  for (const Isa isa : available_isas())
+    expect_equal(rendered(shot, isa, false), rendered(shot, isa, true), shot.name + ", " + isa_word(isa));
+}
+
 TEST(Culling, OffMakesTheSamePictures) {
   for (std::uint32_t seed = 0; seed < static_cast<std::uint32_t>(effort(12)); ++seed) {
-    const Shot shot = any_shot(7000 + seed);
-    for (const Isa isa : available_isas())
-      expect_equal(rendered(shot, isa, false), rendered(shot, isa, true), shot.name + ", " + isa_word(isa));
+    expect_same_without(any_shot(7000 + seed));
+    expect_same_without(instance_shot(7000 + seed));
   }
 }
 
@@ -61,6 +65,10 @@ TEST(Culling, IsCounted) {
     EXPECT_GE(per_ray(all.tests.primary, all.rays.primary), primitives);
     EXPECT_LE(per_ray(all.tests.primary, all.rays.primary), 1.5 * primitives);
     EXPECT_GE(per_ray(all.tests.secondary, secondary), primitives);
+    EXPECT_LE(per_ray(all.tests.secondary, secondary), 1.5 * primitives);
+    // One that is occluded is done before it met all.
+    EXPECT_GE(per_ray(all.tests.shadow, all.rays.shadow), 0.7 * primitives);
+    EXPECT_LE(per_ray(all.tests.shadow, all.rays.shadow), 1.3 * primitives);
     for (const Frame* frame : {&all, &few}) EXPECT_GT(frame->tests.primary.boxes, 0U);
     EXPECT_LE(per_ray(few.tests.primary, few.rays.primary), 10.0);
     EXPECT_LE(per_ray(few.tests.secondary, secondary), 40.0);
