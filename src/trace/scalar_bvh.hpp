@@ -21,7 +21,8 @@ public:
   reference::Hit closest(const reference::Ray& ray) const override;
   bool any(const reference::Ray& ray) const override;
 
-  BvhStats stats() const; // of all trees; build_seconds is 0
+  const BinaryTree& tree() const noexcept { return world_.binary; } // not a prototype's
+  BvhStats stats() const;                                           // of all trees; build_seconds is 0
 
 private:
   struct Tree {
