@@ -130,6 +130,23 @@ TEST_P(LightKinds, SoftShadowOfADisk) {
                 });
 }
 
+TEST_P(LightKinds, NoiseFollowsTheSeed) {
+  const auto noise = [&](std::uint32_t seed) {
+    Light light = above(LightKind::disk);
+    light.position = {0, 4, 0};
+    light.radius = 1;
+    SceneBuilder builder = floor_under(light);
+    add_quad(builder, {0, 2, -50}, {50, 0, 0}, {0, 0, 100}, builder.add_material(black()));
+    RenderSettings settings = settings_of(24, 24);
+    settings.light_samples = 2;
+    settings.seed = seed;
+    return render(builder, Camera{{0, 1.5F, 0}, {0, 0, 0}, {0, 0, -1}, 90}, settings).rgb;
+  };
+  const auto first = noise(1);
+  EXPECT_TRUE(first == noise(1));
+  EXPECT_FALSE(first == noise(2));
+}
+
 // Far away, each kind of light with a size is a point light.
 TEST_P(LightKinds, SmallAndFarIsAPoint) {
   for (const LightKind kind : {LightKind::rectangle, LightKind::disk, LightKind::sphere}) {

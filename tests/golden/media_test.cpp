@@ -96,6 +96,21 @@ TEST_P(MediaPictures, ParallelRaysStartInAMedium) {
                 [&](const DVec3&) { return dimmed(2.0 / 3, 2 + 3 * 1.5); });
 }
 
+// A pane without a back is nothing to be in where only one of the ways out of the eye passes it.
+TEST_P(MediaPictures, MostWaysOutSayWhereTheEyeIs) {
+  const DVec3 ways[] = {{0.2735, 0.8942, 0.3541}, {0.5139, 0.7231, 0.4617}, {0.3313, 0.6241, 0.7077}};
+  for (const DVec3& way : ways) {
+    SceneBuilder builder;
+    add_quad(builder, {-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, builder.add_material(glowing(Vec3(1.0F))));
+    Material fog = clear(1.5F);
+    fog.absorption = Vec3(1.0F);
+    add_quad(builder, Vec3(DVec3(0, 0, 5) + 2.0 * way) - Vec3(0.1F, 0, 0.1F), {0.2F, 0, 0}, {0, 0, 0.2F},
+             builder.add_material(fog));
+    const Frame frame = render(builder, Camera{}, settings_of(4, 4));
+    EXPECT_EQ(color_at(frame, 2, 2), Vec3(1.0F));
+  }
+}
+
 // A slab 0 > z > -2 with a ball in it, traced in double precision. A ray that leaves downwards shows on which
 // side of x = 0 it meets the plane z = -10.
 class BallInASlab {

@@ -80,6 +80,56 @@ TEST_P(Sampling, AdaptiveSpendsSamplesAtEdgesAlone) {
   EXPECT_EQ(frame.rays.primary, samples);
 }
 
+TEST_P(Sampling, AdaptiveLooksAtTheRowsAboveAndBelow) {
+  SceneBuilder builder = edge_at(20); // x = 0
+  Camera camera;
+  camera.up = {1, 0, 0};
+  RenderSettings settings = settings_of(9, 40);
+  settings.samples_per_pixel = 4;
+  settings.most_samples = 16;
+  settings.adaptive = 0.05F;
+  settings.filter = PixelFilter::box;
+  const Frame frame = render(builder, camera, settings);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 9; ++x)
+      EXPECT_EQ(frame.samples[static_cast<std::size_t>(9 * y + x)], y == 19 || y == 20 ? 16 : 4)
+          << x << ',' << y;
+}
+
+// What counts is the difference of square roots: dark steps are seen where bright ones of that size are not.
+TEST_P(Sampling, AdaptiveSeesDarkStepsBetter) {
+  for (const bool dark : {true, false}) {
+    SceneBuilder builder;
+    const float low = dark ? 0.0F : 0.81F;
+    add_quad(builder, {0, -20, 0}, {60, 0, 0}, {0, 40, 0},
+             builder.add_material(glowing(Vec3(low + (dark ? 0.01F : 0.07F)))));
+    builder.set_background(Vec3(low));
+    RenderSettings settings = settings_of(40, 9);
+    settings.samples_per_pixel = 4;
+    settings.adaptive = 0.05F;
+    settings.filter = PixelFilter::box;
+    const Frame frame = render(builder, Camera{}, settings);
+    EXPECT_EQ(frame.samples[40 * 4 + 19] > 4, dark);
+    EXPECT_EQ(frame.samples[40 * 4 + 20] > 4, dark);
+  }
+}
+
+TEST_P(Sampling, AdaptiveDoublesItsSamples) {
+  SceneBuilder builder;
+  add_quad(builder, {-6.5F, -20, 0}, {60, 0, 0}, {13, 40, 0}, builder.add_material(glowing(Vec3(1.0F))));
+  RenderSettings settings = settings_of(40, 40);
+  settings.samples_per_pixel = 2;
+  settings.most_samples = 64;
+  settings.adaptive = 0.3F;
+  const Frame frame = render(builder, Camera{}, settings);
+  int between = 0;
+  for (const int count : frame.samples) {
+    EXPECT_TRUE(count == 2 || count == 4 || count == 8 || count == 16 || count == 32 || count == 64) << count;
+    between += count > 4 && count < 64 ? 1 : 0;
+  }
+  EXPECT_GT(between, 0);
+}
+
 // All pixels refined to the end are as if they had been asked for so many samples.
 TEST_P(Sampling, AdaptiveSamplesAreTheFirstOnesOfMany) {
   for (const PixelFilter filter : {PixelFilter::tent, PixelFilter::mitchell}) {

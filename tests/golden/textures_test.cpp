@@ -135,6 +135,29 @@ TEST_P(Textures, LevelFollowsTheDistance) {
   }
 }
 
+// Each of four samples stands for half a pixel's width, each of 16 for a quarter.
+TEST_P(Textures, LevelFollowsTheSamples) {
+  std::vector<float> greys(64 * 64, 0.0F);
+  std::fill_n(greys.begin(), 64 * 32, 1.0F);
+  for (const int samples : {4, 16}) {
+    SceneBuilder builder;
+    add_unit_square(builder, builder.add_material(shown(builder.add_texture(image_texture(64, 64, greys)))));
+    // One pixel of the picture is four of the image wide, and row 8 begins one of the image below the edge:
+    // as far as its blur on level 1 reaches, and half of what it reaches on level 2.
+    const double width = 4.0 / 64;
+    const float distance = 4;
+    const auto fov = static_cast<float>(2 * std::atan(0.5 * 16 * width / distance) * 180 / std::numbers::pi);
+    const auto y = static_cast<float>(0.5 - 0.25 * width);
+    RenderSettings settings = settings_of(16, 16);
+    settings.samples_per_pixel = samples;
+    settings.filter = PixelFilter::box;
+    const Frame frame = render(builder, Camera{{0.5F, y, distance}, {0.5F, y, 0}, {0, 1, 0}, fov}, settings);
+    float sum = 0;
+    for (int x = 0; x < 16; ++x) sum += color_at(frame, x, 8).x;
+    EXPECT_LT(sum / 16, 4e-3F) << samples;
+  }
+}
+
 TEST_P(Textures, CutOutsLetLightThrough) {
   SceneBuilder builder;
   Light sun;

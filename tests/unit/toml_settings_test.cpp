@@ -228,6 +228,24 @@ TEST(TomlSettings, TexturesOfFilesAndOfNone) {
   EXPECT_NO_THROW(Scene{desc});
 }
 
+// Opacity is what a picture's alpha says, if it has any and no channel is named.
+TEST(TomlSettings, OpacityComesFromAlpha) {
+  TomlTexts texts;
+  const std::string header("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0", 16); // a pixel of a Targa file
+  texts.folder().write("alpha.tga", header + std::string("\x20\x28\xFF\xFF\xFF\x80", 6));
+  texts.folder().write("grey.pgm", "P2 1 1 255\n128\n");
+  const SceneDesc desc =
+      texts.desc("[material.a]\nopacity_texture = 'alpha.tga'\ndiffuse_texture = 'alpha.tga'\n"
+                 "[material.b]\nopacity_texture = 'grey.pgm'\n[material.c]\nopacity_texture = "
+                 "{ file = 'alpha.tga', channel = 'red' }\n[[sphere]]\n");
+  const auto channel = [&](std::uint32_t texture) { return desc.textures.at(texture).channel; };
+  const glm::vec4 alpha(0, 0, 0, 1);
+  EXPECT_EQ(channel(desc.materials[0].opacity_texture), alpha);
+  EXPECT_NE(channel(desc.materials[0].diffuse_texture), alpha);
+  EXPECT_NE(channel(desc.materials[1].opacity_texture), alpha);
+  EXPECT_EQ(channel(desc.materials[2].opacity_texture), glm::vec4(1, 0, 0, 0));
+}
+
 TEST(TomlSettings, ManyMaterialsDoWithoutTheirMissingTextures) {
   TomlTexts texts;
   texts.folder().write("t.pgm", "P2 1 1 255\n255\n");
