@@ -212,6 +212,24 @@ TEST_P(TracerOf, KnowsItsTree) {
   EXPECT_GT(stats.build_seconds, 0.0);
 }
 
+// A tree of instances stands on the trees of what they show.
+TEST_P(TracerOf, CountsTheLevelsOfPrototypesToo) {
+  const auto built = [](bool shown) {
+    SceneBuilder builder;
+    const std::uint32_t material = builder.add_material({});
+    if (shown) builder.begin_prototype();
+    add(builder, icosphere(3), material);
+    if (shown) builder.add_instance(builder.end_prototype(), Affine{});
+    return builder.build();
+  };
+  const BvhStats alone = TracerOf::tracer(built(false)).bvh_stats();
+  const BvhStats once = TracerOf::tracer(built(true)).bvh_stats();
+  EXPECT_GE(once.depth, alone.depth);
+  EXPECT_GE(once.node_count, alone.node_count);
+  EXPECT_GE(once.leaf_count, alone.leaf_count);
+  EXPECT_GE(once.sah_cost, alone.sah_cost);
+}
+
 INSTANTIATE_TEST_SUITE_P(Isas, TracerOf, testing::ValuesIn(available_isas()), IsaWord());
 
 TEST(ScalarTracer, ReportsTheTreeThatItTraces) {
