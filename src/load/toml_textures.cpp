@@ -124,10 +124,10 @@ std::uint32_t read_toml_texture(const TomlFile& file, const TomlValue& value, Te
 }
 
 void load_toml_textures(TomlScene& scene) {
-  std::set<TextureKey> keys;
+  std::set<TextureKey> wanted;
   for (const TomlTexture& wish : scene.textures)
-    if (wish.fault.empty()) keys.emplace(wish.path, wish.code);
-  const std::map<TextureKey, TextureFile> files = read_textures(keys, thread_count(scene.options.threads));
+    if (wish.fault.empty()) wanted.emplace(wish.path, wish.code);
+  const std::map<TextureKey, TextureFile> files = read_textures(wanted, thread_count(scene.options.threads));
   std::set<TextureKey> told; // once for each file
   std::vector<bool> without_picture(scene.desc.textures.size());
   for (const TomlTexture& wish : scene.textures) {
