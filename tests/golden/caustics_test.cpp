@@ -78,6 +78,17 @@ TEST_P(CausticPictures, Mirror) {
     }
 }
 
+// A plane has no bounds; photons are kept there too, as far as four times the scene's size beside it.
+TEST_P(CausticPictures, MirrorOverAPlane) {
+  SceneBuilder builder;
+  builder.add_light(beam({-1, 0, 0}));
+  builder.add_plane({0, 0, 0}, {0, 1, 0}, builder.add_material(dark_matt()));
+  add_quad(builder, {-0.5F, 1.5F, -0.5F}, {1, 1, 0}, {0, 0, 1}, builder.add_material(mirror(0.75F)));
+  const Camera camera{{2.5F, 1, 0}, {0, 0, 0}, {0, 1, 0}, 10};
+  const Frame frame = by_photons(builder.build(), camera, settings_for_optics(), false, 20000);
+  EXPECT_NEAR(light_in_the_middle(frame), 0.75, 0.02);
+}
+
 // A lamp that is a mesh, beside a mirror at x = 0.5 or beside its own image.
 Scene lamp_and_image(bool mirrored) {
   SceneBuilder builder;
