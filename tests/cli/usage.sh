@@ -139,6 +139,10 @@ limits() {
   expect 0 tiny.obj -r 256x256 --max-image-mb 1 -o tiny.pfm
   expect_error 5 'max-image-mb' tiny.obj -r 256x256 --max-image-mb 1 --verify
   expect_error 5 'max-image-mb' tiny.obj -r 256x257 --max-image-mb 1 --aov depth
+  expect_error 5 'max-image-mb' tiny.obj -r 132x133 --max-image-mb 1 --adaptive 0.1
+  expect 0 tiny.obj -r 132x132 --max-image-mb 1 --adaptive 0.1
+  expect_error 5 'max-image-mb' tiny.obj -r 162x162 --max-image-mb 1 --integrator forward
+  expect 0 tiny.obj -r 162x161 --max-image-mb 1 --integrator forward --photons 1000
   expect 0 tiny.obj "${small[@]}" --max-depth 1000000000
   grep -q '^fastrt: warning: --max-depth' err || fail "no warning"
   # Not enough memory for the picture: that is said, and is no crash.

@@ -101,7 +101,7 @@ TEST(Reinsertion, makes_a_tree_of_boxes_of_all_sizes_cheaper) {
   const Column<PrimitiveBox> boxes = beams_among_pebbles(5000, 1.5F);
   const double before = sah_cost(collapse(split(boxes), {}));
   EXPECT_LT(sah_cost(collapse(build(boxes, BvhQuality::standard), {})), 0.97 * before);
-  EXPECT_LT(sah_cost(collapse(build(boxes, BvhQuality::high), {})), 0.9 * before);
+  EXPECT_LT(sah_cost(collapse(build(boxes, BvhQuality::high), {})), 0.88 * before); // one round: 0.89
 }
 
 TEST(Reinsertion, of_the_largest_leaves_a_tree_alone_that_has_little_to_gain) {
