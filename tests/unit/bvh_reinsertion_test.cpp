@@ -90,7 +90,8 @@ TEST(Reinsertion, takes_any_small_count) {
 // Beams among pebbles, one in 50: splitting by centroids cannot tell them apart.
 Column<PrimitiveBox> beams_among_pebbles(std::size_t count, float length) {
   const auto beam_or_pebble = [length](std::size_t i, Random& r) {
-    PrimitiveBox box = box_around(r(-1, 1), r(-1, 1), r(-1, 1), 0.002F, i);
+    const float z = r(-1, 1), y = r(-1, 1), x = r(-1, 1); // in this order, whatever the compiler
+    PrimitiveBox box = box_around(x, y, z, 0.002F, i);
     box.upper[i % 3] += i % 50 == 0 ? length : 0.0F;
     return box;
   };
