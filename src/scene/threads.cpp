@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/scene/threads.hpp"
 
+#include "src/scene/startable_threads.hpp"
+
 #include <omp.h>
 
 #ifdef __linux__
@@ -13,8 +15,9 @@
 namespace fastrt {
 
 int thread_count(int wanted) noexcept {
-  const int most = 4 * std::max(1, omp_get_num_procs());
-  return std::clamp(wanted <= 0 ? omp_get_max_threads() : wanted, 1, most);
+  const int most = std::max(1, std::min(4 * omp_get_num_procs(), omp_get_thread_limit()));
+  const int count = std::clamp(wanted <= 0 ? omp_get_max_threads() : wanted, 1, most);
+  return omp_in_parallel() != 0 ? count : startable_threads(count);
 }
 
 #ifdef __linux__
@@ -82,7 +85,7 @@ void place_threads(int threads) noexcept {
   cpu_set_t allowed;
   if (threads == 1 || (threads <= placed && now < until) || omp_in_parallel() != 0 ||
       omp_get_proc_bind() != omp_proc_bind_false || sched_getaffinity(0, sizeof allowed, &allowed) != 0 ||
-      CPU_COUNT(&allowed) != threads)
+      CPU_COUNT(&allowed) != threads || startable_threads(threads + 1) <= threads)
     return;
   placed = threads;
   until = now + awake;

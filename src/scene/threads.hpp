@@ -5,7 +5,7 @@
 namespace fastrt {
 
 // wanted: 0 takes what OpenMP takes by itself (every core, or OMP_NUM_THREADS). Never more than four per
-// core: past what the system can start, libgomp ends the process.
+// core, nor more than the system's limits let start: past that libgomp ends the process.
 int thread_count(int wanted) noexcept;
 
 // Puts the threads that the caller's coming parallel regions of `threads` threads will get on processors of

@@ -245,6 +245,11 @@ many_threads() {
   expect 0 tiny.obj "${small[@]}" --threads 1000000
   grep -q '^fastrt: warning: --threads' err || fail "no warning"
   OMP_NUM_THREADS=100000 expect 0 tiny.obj "${small[@]}"
+  # Where there is no memory for the stacks of all, fewer do it.
+  (ulimit -v 100000 && "$fastrt" --version >/dev/null 2>&1) || return 0 # sanitizers need more
+  (ulimit -s 65536 -v 100000 && expect 0 tiny.obj "${small[@]}" -o few.png)
+  expect 0 tiny.obj "${small[@]}" -o many.png
+  cmp few.png many.png
 }
 
 run_case
