@@ -4,11 +4,9 @@
 #include "src/cli/report.hpp"
 #include "src/cli/run.hpp"
 #include "src/cli/signals.hpp"
+#include "src/cli/streams.hpp"
 
 #include <fastrt/error.hpp>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -22,14 +20,6 @@
 namespace {
 
 using namespace fastrt::cli;
-
-// Without this, the first file opened would take the place of a standard stream that the caller has closed.
-void fill_closed_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) >= 0) continue;
-    if (open("/dev/null", O_RDWR) < 0) return;
-  }
-}
 
 int fail(const char* message, ExitCode code) {
   print_error(message);

@@ -2,6 +2,7 @@
 #include "src/cli/output_files.hpp"
 
 #include "src/cli/save.hpp"
+#include "src/cli/streams.hpp"
 #include "src/film/srgb.hpp"
 #include "src/write/output_file.hpp"
 
@@ -68,6 +69,8 @@ std::vector<unsigned char> encode_picture(const Frame& frame, const std::string&
 fs::path choose_picture(const Options& options) {
   if (options.output == "none") return {};
   fs::path path = options.output == "-" ? "/dev/stdout" : options.output;
+  if (path == "/dev/stdout" && standard_output_is_closed())
+    throw OutputError("cannot write to standard output: it is closed");
   if (path.empty()) path = fs::path(options.scene).stem();
   if (options.output.empty()) path += path.empty() ? "scene.png" : ".png";
   refuse_inputs(options, path);

@@ -229,6 +229,14 @@ closed_streams() {
   "$fastrt" tiny.obj "${small[@]}" -o c.png >out
   cmp a.png c.png
   cmp b.png c.png
+  # A picture that goes there would be lost.
+  local name code
+  for name in - /dev/stdout; do
+    code=0
+    "$fastrt" tiny.obj "${small[@]}" -o $name >&- 2>err || code=$?
+    [ "$code" -eq 4 ] || fail "-o $name ended with $code"
+    grep -qx 'fastrt: error: cannot write to standard output: it is closed' err || fail "-o $name: no reason"
+  done
 }
 
 full_standard_output() {
