@@ -114,7 +114,7 @@ Frame render(const Tracer& tracer, const Camera& camera, const RenderSettings& s
 // checking. Throws as render does.
 Frame render_reference(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
-// What differs between two frames; they must be of one size and pixel format.
+// What differs between two frames of one size and pixel format. compare throws UsageError for others.
 struct FrameDifference {
   std::size_t pixels = 0;     // pixels with a channel that differs in its bits
   std::size_t primitives = 0; // pixels that see another primitive

@@ -209,6 +209,9 @@ void FrameProgress::finish(Frame& frame) {
 }
 
 FrameDifference compare(const Frame& a, const Frame& b) {
+  if (a.width != b.width || a.height != b.height || a.rgb.size() != b.rgb.size() ||
+      a.srgb8.size() != b.srgb8.size())
+    throw UsageError("frames of different sizes or pixel formats can't be compared");
   FrameDifference difference;
   const std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {

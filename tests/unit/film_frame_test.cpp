@@ -144,5 +144,12 @@ TEST(CompareFrames, TheSignOfZeroIsADifference) {
   EXPECT_EQ(compare(a, b).pixels, 1U);
 }
 
+TEST(CompareFrames, RefusesOtherSizesAndFormats) {
+  EXPECT_THROW(compare(black_frame(4, 4), black_frame(2, 8)), UsageError);
+  EXPECT_THROW(compare(black_frame(4, 4), black_frame(4, 5)), UsageError);
+  EXPECT_THROW(compare(black_frame(4, 4), make_srgb8_frame(4, 4)), UsageError);
+  EXPECT_THROW(compare(make_srgb8_frame(4, 4), black_frame(4, 4)), UsageError);
+}
+
 } // namespace
 } // namespace fastrt
