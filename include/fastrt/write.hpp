@@ -14,7 +14,8 @@ namespace fastrt {
 std::vector<std::string> image_extensions();
 
 // Throws UsageError for an extension that is not known and OutputError if the file could not be written there
-// (no such folder, no permission, a folder of that name). Writes nothing that stays.
+// (no such folder, no permission, a folder of that name) or the module of its format can't be loaded. Writes
+// nothing that stays.
 void check_image_path(const std::filesystem::path& path);
 
 // Throws OutputError for a picture that a format can't hold: a JPEG has at most 65500 pixels on a side.

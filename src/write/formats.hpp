@@ -37,5 +37,8 @@ Bytes encode_with_module(const std::string& format, const Picture& picture);
 // exr: a linear picture, or any channels; by a module.
 Bytes encode_exr(const Picture& picture);
 Bytes encode_exr(const LayersToEncode& layers);
+// Loads the module of a format that has one. Throws OutputError if that can't be done, before a picture is
+// made in vain.
+void require_module(std::string_view format);
 
 } // namespace fastrt

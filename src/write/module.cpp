@@ -47,6 +47,13 @@ Bytes encode(int (*encoder)(const Request*, EncodedPicture*), const Request& req
 
 } // namespace
 
+void require_module(std::string_view format) {
+  if (format == "exr")
+    loaded<LayersEncode>(find_openexr_function(openexr_encode_name));
+  else if (is_jpeg(format) || format == "hdr")
+    find_encoder(format);
+}
+
 Bytes encode_with_module(const std::string& format, const Picture& picture) {
   Bytes codes;
   if (is_jpeg(format)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/scene/printable.hpp"
+#include "src/write/formats.hpp"
 #include "src/write/output_file.hpp"
 
 #include <fastrt/error.hpp>
@@ -33,7 +34,7 @@ std::string format_of(const std::filesystem::path& path) {
 } // namespace
 
 void check_image_path(const std::filesystem::path& path) {
-  static_cast<void>(format_of(path));
+  require_module(format_of(path));
   check_writable(path);
 }
 

@@ -130,6 +130,15 @@ unwritable() {
   fi
 }
 
+# Before the rendering, as above.
+module_is_missing() {
+  local format
+  for format in exr hdr jpg; do
+    FASTRT_MODULE_PATH=/nowhere expect_error 4 'cannot load the module for this picture format' missing.obj -o a.$format
+  done
+  FASTRT_MODULE_PATH=/nowhere expect 0 tiny.obj "${small[@]}"
+}
+
 # A scene that is missing shows that nobody looked for it yet.
 too_large_for_the_format() {
   expect_error 4 '65500' missing.obj -r 65501x2 -o a.jpg
