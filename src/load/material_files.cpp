@@ -62,7 +62,7 @@ bool MaterialFiles::read_one(std::string_view name, bool may_be_several, std::ui
     log.warn(offset, "missing material file", subject + " does not exist: default materials are used");
     break;
   case Finding::outside:
-    log.fail(offset, subject + " lies outside the scene directory");
+    log.fail(offset, subject + lies_outside);
     break;
   default:
     log.fail(offset, subject + " is not a regular file");

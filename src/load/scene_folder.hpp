@@ -29,6 +29,10 @@ private:
   bool allow_external_;
 };
 
+// What messages say of Finding::outside.
+inline constexpr const char* lies_outside =
+    " lies outside the scene directory, and external files are not allowed";
+
 // `\` to `/`.
 std::string with_slashes(std::string_view name);
 

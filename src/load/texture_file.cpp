@@ -146,7 +146,7 @@ const char* texture_fault(SceneFolder::Finding finding) {
   case SceneFolder::Finding::missing:
     return "does not exist";
   case SceneFolder::Finding::outside:
-    return "lies outside the scene directory; it is not used";
+    return "lies outside the scene directory, and external files are not allowed; it is not used";
   default:
     return "is no regular file; it is not used";
   }

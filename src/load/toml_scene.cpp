@@ -106,7 +106,7 @@ TomlScene::FoundFile TomlScene::find_file(const TomlFile& from, const TomlValue&
   case SceneFolder::Finding::missing:
     name.fail(subject + " does not exist");
   case SceneFolder::Finding::outside:
-    name.fail(subject + " lies outside the scene directory");
+    name.fail(subject + lies_outside);
   default:
     name.fail(subject + " is not a regular file");
   }

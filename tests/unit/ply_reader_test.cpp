@@ -284,8 +284,8 @@ TEST(PlyReader, TexturesThatCantBeUsedAreWarnedAbout) {
   lines = lines_of(header, textured_rows, desc);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0], start + ":4:21: several textures are not supported: the first one is used");
-  EXPECT_EQ(lines[1],
-            start + ":3:21: texture '../outside.png' lies outside the scene directory; it is not used");
+  EXPECT_EQ(lines[1], start + ":3:21: texture '../outside.png' lies outside the scene directory, and "
+                              "external files are not allowed; it is not used");
   header = plain_header;
   header.replace(header.find("any"), 3, "TextureFile a.png");
   lines = lines_of(header, square + "4 0 1 2 3\n", desc);

@@ -79,8 +79,8 @@ TEST(TomlIncludes, StayInTheScenesFolder) {
   TomlTexts texts;
   test::TemporaryFolder elsewhere;
   const std::string outside = elsewhere.write("x.toml", "[[sphere]]").string();
-  EXPECT_EQ(texts.error("include = '../x.toml'"),
-            "t.toml:1:11: include: scene file '../x.toml' lies outside the scene directory");
+  EXPECT_EQ(texts.error("include = '../x.toml'"), "t.toml:1:11: include: scene file '../x.toml' lies outside "
+                                                  "the scene directory, and external files are not allowed");
   EXPECT_TRUE(contains(texts.error("include = '" + outside + "'"), "lies outside the scene directory"));
   fs::create_symlink(outside, texts.folder().path() / "y.toml");
   EXPECT_TRUE(contains(texts.error("include = 'y.toml'"), "lies outside the scene directory"));

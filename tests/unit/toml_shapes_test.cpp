@@ -206,7 +206,8 @@ TEST(TomlShapes, WhatMakesNoSenseIsRefused) {
   EXPECT_EQ(texts.error("[[mesh]]\nfile = 'none.obj'"),
             "t.toml:2:8: file: mesh file 'none.obj' does not exist");
   EXPECT_EQ(texts.error("[[mesh]]\nfile = '../m.obj'"),
-            "t.toml:2:8: file: mesh file '../m.obj' lies outside the scene directory");
+            "t.toml:2:8: file: mesh file '../m.obj' lies outside the scene directory, and external files are "
+            "not allowed");
   EXPECT_EQ(texts.error("[[mesh]]\nfile = '.'"), "t.toml:2:8: file: mesh file '.' is not a regular file");
   EXPECT_EQ(texts.error("[[mesh]]\nfile = 't.toml'"),
             "t.toml:2:8: file: cannot tell the format of 't.toml'; known: .obj .ply .nff");
