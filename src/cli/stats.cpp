@@ -34,22 +34,6 @@ std::string count(std::size_t number, const char* noun) {
 
 double mega(double value) { return value * 1e-6; }
 
-// The length of the well-formed UTF-8 sequence at `position`, or 0.
-std::size_t utf8_length(const std::string& text, std::size_t position) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const unsigned lead = byte(position);
-  const unsigned next = byte(position + 1);
-  const std::size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  // Overlong forms, surrogates and what lies beyond U+10FFFF.
-  if (lead > 0xF4 || (lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) ||
-      (lead == 0xF0 && next < 0x90) || (lead == 0xF4 && next > 0x8F)) {
-    return 0;
-  }
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(position + i) & 0xC0U) != 0x80) return 0;
-  return length;
-}
-
 // A file name as a JSON string. Bytes that are no UTF-8 become U+FFFD.
 std::string quoted(const std::string& text) {
   std::string result = "\"";

@@ -73,7 +73,9 @@ std::string_view name_in(std::string_view rest) {
 }
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t most = 80;
+  std::size_t most = 80;
+  const auto goes_on = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80; };
+  while (most > 77 && text.size() > most && goes_on(most)) --most; // no part of a character
   std::string shown(1, '\'');
   shown += printable(std::string(text.substr(0, most)));
   shown += text.size() > most ? "...'" : "'";

@@ -9,23 +9,6 @@
 
 namespace fastrt {
 
-std::string printable(const std::string& text) {
-  static constexpr char digits[] = "0123456789abcdef";
-  std::string shown;
-  shown.reserve(text.size());
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7F) {
-      shown += c;
-      continue;
-    }
-    shown += "\\x";
-    shown += digits[byte >> 4U];
-    shown += digits[byte & 15U];
-  }
-  return shown;
-}
-
 namespace {
 
 std::string located(const std::string& file, std::size_t line, std::size_t column,

@@ -95,6 +95,13 @@ TEST(ObjErrors, ControlCharactersDoNotReachTheTerminal) {
   ASSERT_EQ(loaded.warnings().size(), 1U);
   EXPECT_TRUE(contains(loaded.warnings()[0], "'a\\x1b[31mb'"));
   EXPECT_TRUE(contains(error_of("v \x1b[31m 0 0\n"), "'\\x1b[31m'"));
+  EXPECT_TRUE(contains(error_of("v \xc2\x9b"
+                                "31m 0 0\n"),
+                       "'\\xc2\\x9b31m'"));
+  EXPECT_TRUE(contains(error_of("v \xff\xc3 0 0\n"), "'\\xff\\xc3'"));
+  EXPECT_TRUE(contains(error_of("v \xc3\xa4 0 0\n"), "'\xc3\xa4'"));
+  const std::string cut(79, 'x');
+  EXPECT_TRUE(contains(error_of("v " + cut + "\xc3\xa4 0 0\n"), "'" + cut + "...'"));
   const std::string long_name(1U << 19U, 'x');
   EXPECT_LT(parse(three + ("usemtl " + long_name) + "\nf 1 2 3\n").warnings()[0].size(), 300U);
   EXPECT_EQ(parse(three + ("o " + long_name) + "\nf 1 2 3\n").desc.object_names[0], long_name);
