@@ -128,6 +128,33 @@ int sync(int descriptor) {
   return errno;
 }
 
+void write_directly(const fs::path& shown, const fs::path& target, const unsigned char* bytes,
+                    std::size_t count) {
+  OpenFile file = open_directly(shown, target);
+  int error = write_all(file.descriptor(), bytes, count);
+  const int close_error = file.close();
+  if (error == 0) error = close_error;
+  if (error != 0) fail(shown, error);
+}
+
+// Beside its place and then into it. False for a place that can't be taken: a file that is mounted alone.
+bool put_whole(const fs::path& shown, const Target& target, const unsigned char* bytes, std::size_t count) {
+  OpenFile file = open_temporary(shown, target.path);
+  int error = write_all(file.descriptor(), bytes, count);
+  if (error == 0 && target.exists && ::fchmod(file.descriptor(), target.mode) != 0) error = errno;
+  if (error == 0) error = sync(file.descriptor());
+  const int close_error = file.close();
+  if (error == 0) error = close_error;
+  if (error != 0) fail(shown, error);
+  if (::rename(file.path().c_str(), target.path.c_str()) != 0) {
+    if (errno == EBUSY) return false;
+    fail(shown, errno);
+  }
+  // The folder is not synced: after a power failure the place may hold what it held before, whole.
+  file.keep();
+  return true;
+}
+
 } // namespace
 
 void check_writable(const fs::path& path) {
@@ -146,19 +173,8 @@ fs::path place_of(const fs::path& path) {
 
 void replace_file(const fs::path& path, const unsigned char* bytes, std::size_t count) {
   const Target target = resolve(path);
-  OpenFile file = target.direct ? open_directly(path, target.path) : open_temporary(path, target.path);
-  int error = write_all(file.descriptor(), bytes, count);
-  if (error == 0 && !target.direct) {
-    if (target.exists && ::fchmod(file.descriptor(), target.mode) != 0) error = errno;
-    if (error == 0) error = sync(file.descriptor());
-  }
-  const int close_error = file.close();
-  if (error == 0) error = close_error;
-  if (error != 0) fail(path, error);
-  if (target.direct) return;
-  if (::rename(file.path().c_str(), target.path.c_str()) != 0) fail(path, errno);
-  // The folder is not synced: after a power failure the place may hold what it held before, whole.
-  file.keep();
+  if (target.direct || !put_whole(path, target, bytes, count))
+    write_directly(path, target.path, bytes, count);
 }
 
 } // namespace fastrt

@@ -193,6 +193,16 @@ old_picture_survives() {
   [ "$(find . -name '*.tmp' -o -name '.fastrt*' | wc -l)" -eq 0 ] || fail "something is left over"
 }
 
+# As containers have it. Where nothing can be mounted nothing is tested.
+mounted_file() {
+  touch mounted a.png
+  unshare --mount mount --bind mounted a.png 2>/dev/null || return 0
+  unshare --mount bash -euc 'mount --bind mounted a.png; "$@"' - "$fastrt" tiny.obj "${small[@]}" -q -o a.png ||
+    fail "a mounted file is no place for a picture"
+  [ "$(magic mounted)" = 89504e47 ] || fail "no picture in the mounted file"
+  [ "$(find . -name '.fastrt*' | wc -l)" -eq 0 ] || fail "something is left over"
+}
+
 locale_does_not_matter() {
   "$fastrt" "$scenes/spheres.obj" "${small[@]}" -o a.ppm --fov 33.5 --ambient 0.1,0.2,0.3 >/dev/null
   local name
