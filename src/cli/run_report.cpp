@@ -20,8 +20,10 @@ namespace fs = std::filesystem;
 bool is_standard_output(const fs::path& path) {
   struct stat picture {};
   struct stat stream {};
-  return !path.empty() && stat(path.c_str(), &picture) == 0 && fstat(STDOUT_FILENO, &stream) == 0 &&
-         !S_ISCHR(stream.st_mode) && picture.st_dev == stream.st_dev && picture.st_ino == stream.st_ino;
+  if (path.empty() || fstat(STDOUT_FILENO, &stream) != 0 || S_ISCHR(stream.st_mode)) return false;
+  if (path == "/dev/stdout") return true;
+  return stat(path.c_str(), &picture) == 0 && picture.st_dev == stream.st_dev &&
+         picture.st_ino == stream.st_ino;
 }
 
 } // namespace

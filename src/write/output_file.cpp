@@ -2,10 +2,12 @@
 #include "src/write/output_file.hpp"
 
 #include "src/scene/printable.hpp"
+#include "src/write/descriptor_name.hpp"
 
 #include <fastrt/error.hpp>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -31,19 +33,23 @@ struct Target {
   fs::path path; // no link
   bool exists = false;
   bool direct = false;
+  int descriptor = -1; // of a name that stands for one
   mode_t mode = 0;
 };
 
-// Links to open files, which name no place where a file could be put.
-bool is_open_file(const fs::path& path) {
-  return path.native().starts_with("/proc/") || path.native().starts_with("/dev/fd/");
-}
+// Links to open files of other processes, which name no place where a file could be put.
+bool is_open_file(const fs::path& path) { return path.native().starts_with("/proc/"); }
 
 Target resolve(const fs::path& path) {
   constexpr int most_links = 40;
   Target target{path};
   struct stat info {};
   for (int links = 0;; ++links) {
+    target.descriptor = descriptor_named(target.path);
+    if (target.descriptor >= 0) {
+      target.exists = target.direct = true;
+      return target;
+    }
     if (lstat(target.path.c_str(), &info) != 0) {
       if (errno != ENOENT) fail(path, errno);
       return target; // may still be made, unless its folder is missing
@@ -103,10 +109,17 @@ OpenFile open_temporary(const fs::path& shown, const fs::path& target) {
   }
 }
 
-OpenFile open_directly(const fs::path& shown, const fs::path& target) {
-  const int descriptor = ::open(target.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+OpenFile open_directly(const fs::path& shown, const Target& target) {
+  const int descriptor = target.descriptor >= 0 ? ::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 0)
+                                                : ::open(target.path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   if (descriptor < 0) fail(shown, errno);
-  return {target, descriptor, false};
+  return {target.path, descriptor, false};
+}
+
+// Of descriptors that the caller made so that they don't wait.
+void wait_for_room(int descriptor) {
+  pollfd waiting{descriptor, POLLOUT, 0};
+  ::poll(&waiting, 1, -1);
 }
 
 // 0 or the error.
@@ -115,6 +128,10 @@ int write_all(int descriptor, const unsigned char* bytes, std::size_t count) {
   while (count != 0) {
     const ssize_t written = ::write(descriptor, bytes, std::min(count, most));
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) {
+      wait_for_room(descriptor);
+      continue;
+    }
     if (written <= 0) return written < 0 ? errno : EIO;
     bytes += written;
     count -= static_cast<std::size_t>(written);
@@ -128,7 +145,7 @@ int sync(int descriptor) {
   return errno;
 }
 
-void write_directly(const fs::path& shown, const fs::path& target, const unsigned char* bytes,
+void write_directly(const fs::path& shown, const Target& target, const unsigned char* bytes,
                     std::size_t count) {
   OpenFile file = open_directly(shown, target);
   int error = write_all(file.descriptor(), bytes, count);
@@ -159,12 +176,17 @@ bool put_whole(const fs::path& shown, const Target& target, const unsigned char*
 
 void check_writable(const fs::path& path) {
   const Target target = resolve(path);
+  if (target.descriptor >= 0) {
+    if (const int error = check_descriptor(target.descriptor); error != 0) fail(path, error);
+    return;
+  }
   if (target.exists && ::access(target.path.c_str(), W_OK) != 0) fail(path, errno);
   if (!target.direct) open_temporary(path, target.path); // made and removed
 }
 
 fs::path place_of(const fs::path& path) {
   const Target target = resolve(path);
+  if (target.descriptor >= 0) return "/dev/fd/" + std::to_string(target.descriptor);
   std::error_code error;
   const fs::path folder = fs::canonical(folder_of(target.path), error);
   if (error) fail(path, error.value());
@@ -173,8 +195,7 @@ fs::path place_of(const fs::path& path) {
 
 void replace_file(const fs::path& path, const unsigned char* bytes, std::size_t count) {
   const Target target = resolve(path);
-  if (target.direct || !put_whole(path, target, bytes, count))
-    write_directly(path, target.path, bytes, count);
+  if (target.direct || !put_whole(path, target, bytes, count)) write_directly(path, target, bytes, count);
 }
 
 } // namespace fastrt

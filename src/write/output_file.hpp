@@ -15,8 +15,8 @@ void check_writable(const std::filesystem::path& path);
 std::filesystem::path place_of(const std::filesystem::path& path);
 
 // Writes beside the place, syncs, and renames. A link is followed. What exists and is no regular file (a
-// device, a pipe, /dev/stdout), or is mounted alone, is written to directly. Throws OutputError with the
-// system's reason.
+// device, a pipe), or is mounted alone, is written to directly. Names of open files (/dev/stdout, /dev/fd/63)
+// stand for these, wherever they are. Throws OutputError with the system's reason.
 void replace_file(const std::filesystem::path& path, const unsigned char* bytes, std::size_t count);
 
 } // namespace fastrt

@@ -103,6 +103,31 @@ picture_to_stdout() {
   expect_error 2 'standard output' tiny.obj -o - --aov id
 }
 
+# Standard output is written to as it is, not opened anew.
+picture_behind_other_output() {
+  "$fastrt" tiny.obj "${small[@]}" -q -o a.png
+  for name in - /dev/stdout /dev/fd/1; do
+    (echo before && "$fastrt" tiny.obj "${small[@]}" -q -o $name && echo after) >b.png
+    cmp b.png <(echo before && cat a.png && echo after) || fail "-o $name is not behind what was there"
+  done
+  expect_error 4 'Bad file descriptor' tiny.obj -o /dev/fd/77
+  expect_error 2 'write the same file' tiny.obj -o - --signature=/dev/fd/1
+}
+
+# As that of a program which Node.js has started.
+picture_to_a_socket() {
+  command -v python3 >/dev/null || return 0
+  "$fastrt" tiny.obj "${small[@]}" -q -o a.png
+  python3 - "$fastrt" tiny.obj "${small[@]}" -q -o - <<'PYTHON' || fail "another picture in the socket"
+import socket, subprocess, sys
+ours, theirs = socket.socketpair()
+program = subprocess.Popen(sys.argv[1:], stdout=theirs)
+theirs.close()
+picture = ours.makefile("rb").read()
+assert program.wait() == 0 and picture == open("a.png", "rb").read()
+PYTHON
+}
+
 picture_to_a_command() {
   "$fastrt" tiny.obj "${small[@]}" -o a.png >/dev/null
   "$fastrt" tiny.obj "${small[@]}" -q -o >(cat >b.png)
