@@ -69,7 +69,7 @@ struct TracerSettings {
 };
 
 // A scene with its bounding volume hierarchy, ready to be asked. Const calls may come from several threads at
-// once.
+// once, whose stacks have 1 MiB or more.
 class Tracer {
 public:
   // Builds the hierarchy. Throws UsageError for an ISA that this machine lacks, and LimitError.

@@ -8,6 +8,8 @@
 
 #include <fastrt/error.hpp>
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -21,6 +23,15 @@ namespace {
 
 using namespace fastrt::cli;
 
+// What is below is a crash. OpenMP's threads get stacks of this size too.
+void check_stack() {
+  constexpr rlim_t least = rlim_t{1} << 20U;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < least)
+    throw fastrt::LimitError("a stack of " + std::to_string(limit.rlim_cur >> 10U) +
+                             " KiB is too small: 1024 are needed (ulimit -s)");
+}
+
 int fail(const char* message, ExitCode code) {
   print_error(message);
   return code;
@@ -33,6 +44,7 @@ int guarded_main(int argc, char** argv, std::chrono::steady_clock::time_point st
       print_out(*options.answer);
       return exit_done;
     }
+    check_stack();
     return run(options, start);
   } catch (const fastrt::UsageError& error) {
     return fail((std::string(error.what()) + " (see fastrt --help)").c_str(), exit_usage);

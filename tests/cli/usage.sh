@@ -249,6 +249,12 @@ full_standard_output() {
   grep -q '^fastrt: error: .*No space left' err || fail "no reason"
 }
 
+small_stack() {
+  (ulimit -s 256 && expect_error 5 'a stack of 256 KiB is too small' "$scenes/grove.toml")
+  (ulimit -v 400000 && "$fastrt" --version >/dev/null 2>&1) || return 0 # sanitizers need more
+  (ulimit -s 1024 && expect 0 "$scenes/grove.toml" "${small[@]}" --max-depth 64)
+}
+
 many_threads() {
   expect 0 tiny.obj "${small[@]}" --threads 1000000
   grep -q '^fastrt: warning: --threads' err || fail "no warning"
