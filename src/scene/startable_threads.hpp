@@ -4,9 +4,9 @@
 
 namespace fastrt {
 
-// As many threads of `wanted`, the caller counted, as the caller may have in a team: all, or half of what the
-// system starts for this process, which leaves some to others and memory to more than stacks. Where there are
-// limits it is tried, once for each thread that calls and larger number: that takes some 50 us a thread.
+// As many threads of `wanted`, the caller counted, as the caller may have in a team: at most half of what the
+// system has room for, which leaves some to others and memory to more than stacks. Where the number of threads
+// is limited it is tried, once for each thread that calls and larger number: that takes some 50 us a thread.
 int startable_threads(int wanted) noexcept;
 
 } // namespace fastrt
