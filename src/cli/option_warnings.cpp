@@ -9,6 +9,10 @@ std::vector<std::string> sampling_warnings(const Options& options) {
   std::vector<std::string> warnings;
   if (options.given.contains("--max-spp") && options.adaptive == 0)
     warnings.emplace_back("--max-spp says nothing without --adaptive");
+  if (options.given.contains("--filter") && options.samples_per_pixel == 1 && options.adaptive == 0)
+    warnings.emplace_back("--filter says nothing of one sample a pixel");
+  if (options.given.contains("--aov") && options.output == "none" && !options.verify)
+    warnings.emplace_back("--aov says nothing without a picture: '-o none' writes no values either");
   if (options.aperture_radius > 0 && options.samples_per_pixel == 1 && options.adaptive == 0)
     warnings.emplace_back("--aperture: one sample a pixel goes through the middle of the lens; give --spp");
   return warnings;

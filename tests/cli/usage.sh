@@ -198,6 +198,8 @@ options_for_nothing() {
   warned '--fov says nothing beside --window' tiny.obj --window=-1,1,-1,1 --fov 30
   warned '--focal says nothing without --window' tiny.obj --focal 2
   warned '--max-spp says nothing without --adaptive' tiny.obj --max-spp 9
+  warned '--filter says nothing of one sample a pixel' tiny.obj --filter box
+  warned "--aov says nothing without a picture: '-o none' writes no values either" tiny.obj --aov id
   warned '--caustics says nothing without a mirror or glass in the scene' tiny.obj --caustics=100
   expect 0 "$scenes/boxes.obj" "${small[@]}" -o none --caustics=100
   [ ! -s err ] || fail "a warning of mirrors and glass"
