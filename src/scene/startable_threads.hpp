@@ -5,8 +5,8 @@
 namespace fastrt {
 
 // As many threads of `wanted`, the caller counted, as the caller may have in a team: at most half of what the
-// system has room for, which leaves some to others and memory to more than stacks. Where the number of threads
-// is limited it is tried, once for each thread that calls and larger number: that takes some 50 us a thread.
+// system has room for, which leaves some to others and memory to more than stacks. Where their number is
+// limited it is tried, once for each thread that calls and larger number: some 50 us a thread.
 int startable_threads(int wanted) noexcept;
 
 } // namespace fastrt
