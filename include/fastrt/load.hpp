@@ -6,6 +6,7 @@
 #include <fastrt/scene.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace fastrt {
@@ -17,6 +18,9 @@ struct LoadOptions {
   bool allow_external_files = false; // files that a scene names, outside its folder
   bool tr_is_opacity = false;        // MTL: Tr 1 means opaque
   bool sidecar = true;               // load_scene: what find_sidecar finds is read too
+  // Called by the thread that loads, with each file that the scene names, links resolved, before it is
+  // opened; with some of them several times.
+  std::function<void(const std::filesystem::path&)> on_file;
 };
 
 // Reads a Wavefront OBJ file and its MTL files. Lights, ambient and background are left at their defaults.

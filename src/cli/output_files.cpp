@@ -20,15 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Throws UsageError if they are one file.
+void refuse_part(const fs::path& output, const fs::path& part) {
+  std::error_code error;
+  if (fs::equivalent(output, part, error))
+    throw UsageError("the output '" + output.string() + "' is '" + part.string() +
+                     "', which is read as a part of the scene");
+}
+
 // Throws UsageError for what is read; what the scene's text names, such as textures, is not known yet.
 void refuse_inputs(const Options& options, const fs::path& path) {
   std::error_code error;
   const fs::path sidecar = options.sidecar ? find_sidecar(options.scene) : fs::path();
   if (fs::equivalent(path, options.scene, error))
     throw UsageError("the output '" + path.string() + "' is the scene itself");
-  if (!sidecar.empty() && fs::equivalent(path, sidecar, error))
-    throw UsageError("the output '" + path.string() + "' is '" + sidecar.string() +
-                     "', which is read as a part of the scene");
+  if (!sidecar.empty()) refuse_part(path, sidecar);
 }
 
 // "dir/scene.png" and "normal" make "dir/scene-normal.png".
@@ -120,6 +126,15 @@ void check_output_sizes(const OutputFiles& files, const Options& options) {
   const Resolution size = frame_size(options);
   for (const fs::path& path : {files.picture, files.signature})
     if (!path.empty()) check_picture_size(format_of(path), size.width, size.height);
+}
+
+void refuse_scene_files(const OutputFiles& files, const std::set<fs::path>& scene_files) {
+  std::vector<fs::path> outputs = {files.picture, files.signature};
+  for (const auto& [aov, path] : files.aovs) outputs.push_back(path);
+  std::error_code error;
+  for (const fs::path& output : outputs)
+    if (!output.empty() && fs::exists(output, error))
+      for (const fs::path& file : scene_files) refuse_part(output, file);
 }
 
 std::vector<Aov> aovs_to_render(const Options& options) {

@@ -7,6 +7,7 @@
 #include <fastrt/aov.hpp>
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -29,6 +30,9 @@ OutputFiles choose_output_files(const Options& options);
 // Throws OutputError for a frame that a file's format can't hold. To be asked again when the picture's size
 // is settled, which may be the scene's.
 void check_output_sizes(const OutputFiles& files, const Options& options);
+
+// Throws UsageError where a file would go over one that the scene is read from.
+void refuse_scene_files(const OutputFiles& files, const std::set<std::filesystem::path>& scene_files);
 
 // The AOVs to render.
 std::vector<Aov> aovs_to_render(const Options& options);

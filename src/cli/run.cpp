@@ -15,6 +15,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -88,13 +89,16 @@ Frame watched(const Options& options, const char* label, RenderSettings settings
   return frame;
 }
 
-SceneDesc read_scene(const Options& options, int threads) {
+// Throws UsageError for files that would go over what is read.
+SceneDesc read_scene(const Options& options, const OutputFiles& files, int threads) {
   LoadOptions load;
   load.threads = threads;
   load.strict = options.strict;
   load.allow_external_files = options.allow_external_files;
   load.tr_is_opacity = options.tr_is_opacity;
   load.sidecar = options.sidecar;
+  std::set<fs::path> scene_files;
+  load.on_file = [&](const fs::path& file) { scene_files.insert(file); };
   std::error_code error;
   if (fs::is_directory(options.scene, error)) {
     throw InputError("cannot read '" + options.scene + "': it is a folder");
@@ -104,6 +108,7 @@ SceneDesc read_scene(const Options& options, int threads) {
     print_note("'" + sidecar.string() + "' beside the scene is used too (--no-sidecar: it is not)");
   Diagnostics diagnostics;
   SceneDesc desc = load_scene(options.scene, load, diagnostics);
+  refuse_scene_files(files, scene_files);
   warn(options, diagnostics.lines());
   return desc;
 }
@@ -182,7 +187,7 @@ int run(const Options& given, Clock::time_point start) {
   stats.threads = engine.threads;
   stats.bvh_quality = engine.quality;
   const Clock::time_point read_start = Clock::now();
-  SceneDesc desc = read_scene(options, engine.threads);
+  SceneDesc desc = read_scene(options, files, engine.threads);
   settle_picture(desc, files, engine.isa, options);
   const Camera camera = settle_view(options, desc);
   stats.read_seconds = seconds_since(read_start);

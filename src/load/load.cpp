@@ -38,7 +38,7 @@ SceneDesc load_ply(const std::filesystem::path& path, const LoadOptions& options
   PlyReaderSettings settings;
   settings.strict = options.strict;
   settings.object_name = path.stem().string();
-  const SceneFolder folder(path, options.allow_external_files);
+  const SceneFolder folder(path, options);
   settings.read_texture = [&folder](const std::string& name) {
     const SceneFolder::Answer answer = folder.find(name, folder.root());
     const bool found = answer.finding == SceneFolder::Finding::regular;

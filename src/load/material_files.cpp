@@ -32,8 +32,7 @@ MtlOptions::TextureVerdict check_texture(const SceneFolder& folder, const fs::pa
 } // namespace
 
 MaterialFiles::MaterialFiles(const fs::path& scene_file, const LoadOptions& options)
-    : shown_folder_(scene_file.parent_path()), options_(options),
-      folder_(scene_file, options.allow_external_files) {}
+    : shown_folder_(scene_file.parent_path()), options_(options), folder_(scene_file, options) {}
 
 void MaterialFiles::read(const std::string& names, std::uint64_t offset, MaterialSet& materials,
                          EventLog& log) {

@@ -14,7 +14,8 @@ std::string with_slashes(std::string_view name) {
   return text;
 }
 
-SceneFolder::SceneFolder(const fs::path& scene_file, bool allow_external) : allow_external_(allow_external) {
+SceneFolder::SceneFolder(const fs::path& scene_file, const LoadOptions& options)
+    : allow_external_(options.allow_external_files), on_file_(options.on_file) {
   const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : fs::path(".");
   std::error_code error;
   root_ = fs::canonical(parent, error);
@@ -34,6 +35,7 @@ SceneFolder::Answer SceneFolder::find(std::string_view name, const fs::path& fol
   if (error) return {Finding::missing, {}};
   if (!allow_external_ && !holds(real)) return {Finding::outside, {}};
   if (!fs::is_regular_file(real, error)) return {Finding::special, {}};
+  if (on_file_) on_file_(real);
   return {Finding::regular, std::move(real)};
 }
 

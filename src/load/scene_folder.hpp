@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fastrt/load.hpp>
+
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,14 +14,15 @@ namespace fastrt {
 // below, symbolic links followed.
 class SceneFolder {
 public:
-  SceneFolder(const std::filesystem::path& scene_file, bool allow_external);
+  SceneFolder(const std::filesystem::path& scene_file, const LoadOptions& options);
 
   enum class Finding { regular, missing, outside, special };
   struct Answer {
     Finding finding;
     std::filesystem::path path; // without links; of regular files
   };
-  // `name` as a scene writes it, relative to `folder`; `\` separates too. Opens nothing.
+  // `name` as a scene writes it, relative to `folder`; `\` separates too. Opens nothing. Tells
+  // LoadOptions::on_file of regular files.
   Answer find(std::string_view name, const std::filesystem::path& folder) const;
   const std::filesystem::path& root() const noexcept { return root_; }
 
@@ -27,6 +31,7 @@ private:
 
   std::filesystem::path root_;
   bool allow_external_;
+  std::function<void(const std::filesystem::path&)> on_file_;
 };
 
 // What messages say of Finding::outside.

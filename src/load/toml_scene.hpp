@@ -51,7 +51,7 @@ struct TomlTexture {
 class TomlScene {
 public:
   TomlScene(const std::filesystem::path& path, const LoadOptions& given, Diagnostics& to)
-      : options(given), diagnostics(to), confines(path, given.allow_external_files) {}
+      : options(given), diagnostics(to), confines(path, given) {}
 
   // A warning, or with LoadOptions::strict an error.
   void warn(const std::string& file, TomlPlace place, const char* kind, const std::string& message);

@@ -192,6 +192,34 @@ output_is_the_scene() {
   cmp tiny.toml copy.toml
 }
 
+# These are known once the scene is read, and before the rendering.
+output_is_a_part_of_the_scene() {
+  expect 0 "$scenes/spheres.obj" "${small[@]}" -o texture.png
+  printf 'newmtl m\nmap_Kd texture.png\n' >materials.png
+  printf 'mtllib materials.png\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n' >model.obj
+  printf 'ply\nformat ascii 1.0\ncomment TextureFile other-id.png\nelement vertex 3\n' >model.ply
+  printf 'property float %s\n' x y z u v >>model.ply
+  printf 'element face 1\nproperty list uchar int vertex_indices\nend_header\n' >>model.ply
+  printf '0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n' >>model.ply
+  printf '[[mesh]]\nfile = "model.obj"\n[[mesh]]\nfile = "model.ply"\n' >part.toml
+  printf 'include = "part.toml"\n[material.a]\ndiffuse_texture = "own.png"\n[[sphere]]\nmaterial = "a"\n' >whole.toml
+  cp texture.png own.png
+  cp texture.png other-id.png
+  ln -s model.obj mesh.png
+  ln part.toml included.png
+  sha256sum ./*.png ./*.obj ./*.ply ./*.toml >sums
+  local long=(-r 2000x2000 -s 64) name start=$SECONDS
+  expect_error 2 "materials.png', which is read" model.obj "${long[@]}" -o materials.png
+  expect_error 2 "texture.png', which is read" model.obj "${long[@]}" -o none --signature=texture.png
+  expect_error 2 "other-id.png', which is read" model.ply "${long[@]}" -o other.png --aov id
+  for name in materials texture other-id own mesh included; do
+    expect_error 2 "the output '$name.png' is" whole.toml "${long[@]}" -o $name.png
+  done
+  [ $((SECONDS - start)) -lt 20 ] || fail "found out late"
+  sha256sum --quiet -c sums
+  expect 0 whole.toml "${small[@]}" -o whole.png
+}
+
 outputs_are_not_each_other() {
   local name
   mkdir folder
