@@ -18,8 +18,8 @@ std::vector<std::string> image_extensions();
 // nothing that stays.
 void check_image_path(const std::filesystem::path& path);
 
-// Throws OutputError for a picture that a format can't hold: a JPEG has at most 65500 pixels on a side.
-// format: one of image_extensions().
+// Throws OutputError for a picture that a format can't hold: a JPEG has at most 65500 pixels on a side, a
+// TIFF 1400 million in all. format: one of image_extensions().
 void check_picture_size(const std::string& format, int width, int height);
 
 // Writes a picture: rgb holds 3 * width * height linear values, rows from the top. 8-bit formats (png, ppm,

@@ -6,6 +6,7 @@
 #include <fastrt/write.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 namespace fastrt {
@@ -30,7 +31,7 @@ Bytes encode(const std::string& format, const Picture& picture) {
   if (format == "png") return encode_png(picture);
   if (format == "ppm") return encode_ppm(picture);
   if (format == "pfm") return encode_pfm(picture);
-  if (format == "tif" || format == "tiff") return encode_tiff(picture);
+  if (is_tiff(format)) return encode_tiff(picture);
   if (format == "exr") return encode_exr(picture);
   return encode_with_module(format, picture);
 }
@@ -45,6 +46,11 @@ void check_picture_size(const std::string& format, int width, int height) {
   constexpr int most_of_jpeg = 65500; // JPEG_MAX_DIMENSION of libjpeg
   if (is_jpeg(format) && (width > most_of_jpeg || height > most_of_jpeg))
     throw OutputError("a JPEG picture has at most 65500 pixels on a side");
+  // Places in the file are 32-bit numbers. Noise gets no smaller by compression, but larger by less than 2 %:
+  // a strip has 64 KiB or more, half a KiB before it, and a code of its own.
+  constexpr std::int64_t most_of_tiff = 1'400'000'000;
+  if (is_tiff(format) && std::int64_t{width} * height > most_of_tiff)
+    throw OutputError("a TIFF picture has at most 1400 million pixels; write png, exr or pfm");
 }
 
 bool is_8bit_format(const std::string& format) {

@@ -23,6 +23,7 @@ struct Picture {
 
 // Of a format in lower case.
 inline bool is_jpeg(std::string_view format) { return format == "jpg" || format == "jpeg"; }
+inline bool is_tiff(std::string_view format) { return format == "tif" || format == "tiff"; }
 
 // The codes of values first .. first + count - 1.
 void put_codes(const Picture& picture, std::size_t first, std::size_t count, unsigned char* codes);

@@ -170,6 +170,10 @@ too_large_for_the_format() {
   expect_error 4 '65500' missing.obj -r 2x65501 -o none --signature=a.JPEG
   expect_error 3 'missing.obj' missing.obj -r 65536x2 --crop 18,0,65518,2 -o a.jpg
   expect_error 3 'missing.obj' missing.obj -r 65536x2 -o a.tif
+  expect_error 4 '1400 million' missing.obj -r 21363x65536 -o a.tif
+  expect_error 4 '1400 million' missing.obj -r 65536x65536 -o none --signature=a.TIFF
+  expect_error 3 'missing.obj' missing.obj -r 65536x21362 --max-image-mb 8192 -o a.tiff
+  expect_error 3 'missing.obj' missing.obj -r 65536x65536 --crop 0,0,2,2 -o a.tif
   printf '[picture]\nwidth = 65536\nheight = 2\nspp = 65536\n[[sphere]]\n' >wide.toml
   expect_error 4 '65500' wide.toml -o a.jpg
 }

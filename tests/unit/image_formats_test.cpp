@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <random>
 #include <thread>
 
 namespace fastrt {
@@ -168,6 +169,23 @@ TEST(EncodeImage, RefusesWhatAFormatCannotHold) {
   const TestPicture wide = flat_picture(65501, 1, 0.5F);
   EXPECT_THROW(encode_image("jpg", wide.rgb, wide.width, wide.height), OutputError);
   EXPECT_FALSE(encode_image("png", wide.rgb, wide.width, wide.height).empty());
+  EXPECT_THROW(check_picture_size("tif", 65536, 21363), OutputError);
+  EXPECT_THROW(check_picture_size("tiff", 65536, 65536), OutputError);
+  EXPECT_NO_THROW(check_picture_size("tiff", 21362, 65536));
+  EXPECT_NO_THROW(check_picture_size("exr", 65536, 65536));
+}
+
+// TIFF's limit of pixels counts on it.
+TEST(EncodeImage, NoiseGrowsByLessThanTwoPerCent) {
+  std::mt19937 random(3);
+  for (const int width : {700, 21800, 65536}) {
+    Bytes codes(std::size_t{3} * 65536 * 16);
+    codes.resize(codes.size() / (3 * static_cast<std::size_t>(width)) * 3 * static_cast<std::size_t>(width));
+    for (unsigned char& code : codes) code = static_cast<unsigned char>(random());
+    const int height = static_cast<int>(codes.size()) / (3 * width);
+    EXPECT_LT(static_cast<double>(encode_image("tif", codes, width, height).size()),
+              1.02 * static_cast<double>(codes.size()));
+  }
 }
 
 TEST(EncodeImage, NumbersThatAreNoneDoNoHarm) {
