@@ -58,10 +58,6 @@ PolygonTriangulator::Result PolygonTriangulator::project(std::span<const Vec3> c
   return {false, highest - lowest > bent_share * std::sqrt(reach)};
 }
 
-double PolygonTriangulator::area(const Point& a, const Point& b, const Point& c) {
-  return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-}
-
 // Left turns all the way, and around once: the edges point to the right in one run and to the left in
 // another.
 bool PolygonTriangulator::is_convex() const {
@@ -69,8 +65,8 @@ bool PolygonTriangulator::is_convex() const {
   std::size_t reversals = 0;
   bool rightward = points_[0].x > points_[count - 1].x;
   for (std::size_t i = 0; i < count; ++i) {
-    const Point &a = points_[i], &b = points_[(i + 1) % count], &c = points_[(i + 2) % count];
-    if (!(area(a, b, c) > 0)) return false;
+    const PlanePoint &a = points_[i], &b = points_[(i + 1) % count], &c = points_[(i + 2) % count];
+    if (!(area_of(a, b, c) > 0)) return false;
     const bool now_rightward = b.x > a.x;
     reversals += now_rightward != rightward ? 1 : 0;
     rightward = now_rightward;
@@ -81,11 +77,11 @@ bool PolygonTriangulator::is_convex() const {
 bool PolygonTriangulator::winds_once() const {
   const std::size_t count = points_.size();
   double turned = 0;
-  Point last{0, 0};
-  Point first{0, 0};
+  PlanePoint last{0, 0};
+  PlanePoint first{0, 0};
   for (std::size_t i = 0; i < count; ++i) {
-    const Point &a = points_[i], &b = points_[(i + 1) % count];
-    const Point edge{b.x - a.x, b.y - a.y};
+    const PlanePoint &a = points_[i], &b = points_[(i + 1) % count];
+    const PlanePoint edge{b.x - a.x, b.y - a.y};
     if (edge.x == 0 && edge.y == 0) continue;
     if (last.x == 0 && last.y == 0) {
       first = edge;
@@ -103,12 +99,13 @@ bool PolygonTriangulator::crosses_itself() const {
   if (count > most_pairwise) return false;
   const auto opposite = [](double a, double b) { return (a > 0 && b < 0) || (a < 0 && b > 0); };
   for (std::size_t i = 0; i < count; ++i) {
-    const Point &a = points_[i], &b = points_[(i + 1) % count];
+    const PlanePoint &a = points_[i], &b = points_[(i + 1) % count];
     const auto [left, right] = std::minmax(a.x, b.x);
     for (std::size_t j = i + 2; j < count; ++j) {
-      const Point &c = points_[j], &d = points_[(j + 1) % count];
+      const PlanePoint &c = points_[j], &d = points_[(j + 1) % count];
       if (std::max(c.x, d.x) < left || std::min(c.x, d.x) > right) continue;
-      if (opposite(area(a, b, c), area(a, b, d)) && opposite(area(c, d, a), area(c, d, b))) return true;
+      if (opposite(area_of(a, b, c), area_of(a, b, d)) && opposite(area_of(c, d, a), area_of(c, d, b)))
+        return true;
     }
   }
   return false;

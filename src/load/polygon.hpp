@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "src/load/corner_tree.hpp"
+
 #include <fastrt/math.hpp>
 
 #include <array>
@@ -29,9 +31,6 @@ public:
   Result run(std::span<const Vec3> corners, std::vector<Triangle>& triangles);
 
 private:
-  struct Point {
-    double x, y;
-  };
   // A corner in the ring of those that are left.
   struct Link {
     std::uint32_t before, after;
@@ -39,7 +38,6 @@ private:
   enum class Turn { left, straight, right };
 
   Result project(std::span<const Vec3> corners);
-  static double area(const Point& a, const Point& b, const Point& c);
   Turn turn_at(std::uint32_t corner) const;
   bool is_convex() const;
   bool crosses_itself() const;
@@ -50,12 +48,11 @@ private:
   void cut_straight(std::vector<Triangle>& triangles);
   void make_ring();
   bool is_ear(std::uint32_t corner) const;
-  bool blocks(std::uint32_t other, const Link& ends, std::uint32_t corner) const;
   void cut(std::uint32_t corner, std::vector<Triangle>& triangles);
 
-  std::vector<Point> points_; // projected so that the polygon turns left
+  std::vector<PlanePoint> points_; // projected so that the polygon turns left
   std::vector<Link> ring_;
-  std::vector<std::uint32_t> by_x_; // corners that may lie in an ear, by ascending x
+  CornerTree may_block_; // the corners that may lie in an ear
   std::vector<char> gone_;
   std::size_t left_ = 0; // corners in the ring
   std::vector<std::uint32_t> candidates_;

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -145,6 +146,32 @@ TEST(ObjPolygon, LargeSpiralsAreQuick) {
   const Split made = split(corners);
   EXPECT_FALSE(made.result.tangled);
   EXPECT_EQ(made.triangles.size(), corners.size() - 2);
+}
+
+// A band whose rims zigzag, seen along `angle`.
+std::vector<Vec3> zigzag(std::size_t count, double height, double angle) {
+  std::vector<Vec3> corners;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool upper = i >= count / 2;
+    const std::size_t k = upper ? count - 1 - i : i;
+    const double x = 0.05 * static_cast<double>(k), y = height * ((k % 2 == 0 ? 0 : 1) + (upper ? 0.5 : 0));
+    corners.emplace_back(x * std::cos(angle) - y * std::sin(angle), x * std::sin(angle) + y * std::cos(angle),
+                         0);
+  }
+  return corners;
+}
+
+// Testing each ear against each corner takes 20 s for the slowest of these; all together take one.
+TEST(ObjPolygon, LargeZigzagsAreQuick) {
+  expect_whole_everywhere(zigzag(100, 3, 0.5), "zigzag");
+  const auto start = std::chrono::steady_clock::now();
+  for (const double degrees : {0.0, 0.001, 30.0, 45.0, 89.999, 90.0}) {
+    const std::vector<Vec3> corners = zigzag(max_face_corners - 1, 1000, degrees * std::numbers::pi / 180);
+    const Split made = split(corners);
+    EXPECT_FALSE(made.result.tangled) << degrees;
+    EXPECT_EQ(made.triangles.size(), corners.size() - 2) << degrees;
+  }
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
 }
 
 TEST(ObjPolygon, TangledOnesBecomeFans) {
