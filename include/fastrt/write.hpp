@@ -53,7 +53,8 @@ std::vector<unsigned char> encode_layers(const Frame& frame, std::span<const std
 
 // One of the frame's AOVs as a picture of sRGB codes, three a pixel, to be looked at or read back: ids are
 // red + 256 * green + 65536 * blue, counted from 1; normals are n / 2 + 1 / 2; depth is bright where it is
-// near, by 1 / depth; like it, position, cost and depth-of-recursion are scaled to their own range.
+// near, by 1 / depth; like it, position, cost and depth-of-recursion are scaled to their own range, of
+// positions without those that lie far from most others.
 std::vector<unsigned char> aov_picture(const AovPlane& plane, int threads = 0);
 
 // Every object in its signature_color(), the background black; sRGB codes. `ids`: of Aov::id.

@@ -2,6 +2,7 @@
 // AOVs as pictures.
 #include "src/film/srgb.hpp"
 #include "src/write/codes.hpp"
+#include "src/write/ranges.hpp"
 #include "src/write/stored_ids.hpp"
 
 #include <fastrt/write.hpp>
@@ -19,44 +20,12 @@ std::size_t pixel_count(const AovPlane& plane) {
          static_cast<std::size_t>(aov_info(plane.aov).channels);
 }
 
-// The finite numbers of a plane lie within these; 0 and 1 if there are none.
-struct Range {
-  float low = infinity, high = -infinity;
-  void add(float x) {
-    if (!std::isfinite(x)) return;
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-  // 0 at the low end, 1 at the high one.
-  float place(float x) const { return high > low ? (x - low) / (high - low) : 0.0F; }
-};
-
-using Ranges = std::array<Range, 3>; // of the channels
-
-// Of shown(value), for all values.
+// Of shown(value), for all values of a plane with one channel.
 template <class Shown>
-Ranges ranges_of(const AovPlane& plane, int threads, const Shown& shown) {
-  const auto channels = static_cast<std::size_t>(aov_info(plane.aov).channels);
-  const std::size_t pixels = pixel_count(plane);
-  std::vector<Ranges> of_pieces(piece_count(pixels));
-  for_pieces(pixels, threads, [&](std::size_t piece, std::size_t first, std::size_t last) {
-    Ranges ranges;
-    for (std::size_t i = first * channels; i < last * channels; ++i)
-      ranges[i % channels].add(
-          shown(plane.values.empty() ? static_cast<float>(plane.ids[i]) : plane.values[i]));
-    of_pieces[piece] = ranges;
-  });
-  Ranges all;
-  for (const Ranges& ranges : of_pieces)
-    for (std::size_t c = 0; c < channels; ++c) {
-      all[c].add(ranges[c].low);
-      all[c].add(ranges[c].high);
-    }
-  return all;
-}
-
-Ranges ranges_of(const AovPlane& plane, int threads) {
-  return ranges_of(plane, threads, [](float value) { return value; });
+Range range_of(const AovPlane& plane, int threads, const Shown& shown) {
+  return ranges_of_pixels(pixel_count(plane), threads, [&](std::size_t pixel, Ranges& ranges) {
+    ranges[0].add(shown(plane.values.empty() ? static_cast<float>(plane.ids[pixel]) : plane.values[pixel]));
+  })[0];
 }
 
 // A share of 255 as a code; 0 for NaN.
@@ -64,8 +33,6 @@ unsigned char code_of_share(float share) {
   const float code = std::floor(255.0F * share + 0.5F);
   return static_cast<unsigned char>(code >= 0.0F ? std::min(code, 255.0F) : 0.0F);
 }
-
-bool is_zero(const float* v) { return v[0] == 0.0F && v[1] == 0.0F && v[2] == 0.0F; }
 
 using Codes = std::vector<unsigned char>;
 
@@ -95,7 +62,7 @@ Codes packed_ids(const AovPlane& plane, int threads) {
 }
 
 Codes counts(const AovPlane& plane, int threads) {
-  Range range = ranges_of(plane, threads)[0];
+  Range range = range_of(plane, threads, [](float count) { return count; });
   range.add(0.0F);
   return greys(plane, threads,
                [&](std::size_t pixel) { return range.place(static_cast<float>(plane.ids[pixel])); });
@@ -105,7 +72,7 @@ Codes counts(const AovPlane& plane, int threads) {
 // rest.
 Codes depths(const AovPlane& plane, int threads) {
   const auto nearness = [](float depth) { return std::isfinite(depth) ? 1.0F / depth : infinity; };
-  const Range range = ranges_of(plane, threads, nearness)[0];
+  const Range range = range_of(plane, threads, nearness);
   return greys(plane, threads, [&](std::size_t pixel) {
     const float depth = plane.values[pixel];
     if (!std::isfinite(depth)) return 0.0F;
@@ -144,9 +111,10 @@ std::vector<unsigned char> aov_picture(const AovPlane& plane, int threads) {
   case Aov::normal:
     return codes_of_vectors(plane, threads, [](float x, std::size_t) { return 0.5F * x + 0.5F; });
   case Aov::position:
-    return codes_of_vectors(plane, threads, [ranges = ranges_of(plane, threads)](float x, std::size_t c) {
-      return ranges[c].place(x);
-    });
+    return codes_of_vectors(plane, threads,
+                            [ranges = ranges_of_positions(plane.values, threads)](float x, std::size_t c) {
+                              return ranges[c].place(x);
+                            });
   case Aov::uv:
     return fractions(plane, threads);
   case Aov::albedo:

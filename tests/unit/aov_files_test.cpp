@@ -85,6 +85,37 @@ TEST(AovPicture, ShowsNumbersInTheirRange) {
   EXPECT_EQ(codes_of({Aov::uv, {0.5F, 3.25F}, {}}), (std::vector<int>{128, 64, 0}));
 }
 
+TEST(AovPicture, ShowsPositionsInTheirBox) {
+  // The second pixel sees nothing.
+  const AovPlane plane{Aov::position, {10, 1, -4, 0, 0, 0, 12, 1.5F, -2, 11, 3, -3}, {}};
+  EXPECT_EQ(aov_picture(plane), (std::vector<unsigned char>{0, 0, 0, 0, 0, 0, 255, 64, 255, 128, 255, 128}));
+}
+
+// A floor up to its horizon, seen row by row, and what stands on it.
+TEST(AovPicture, ShowsNearPositionsBeforeAHorizon) {
+  constexpr int width = 640, height = 300;
+  AovPlane plane{Aov::position, {}, {}};
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const float depth = 1e5F / (1.0F + 1000.0F * static_cast<float>(row));
+      const bool is_tower = column < 40 && row < 200;
+      const float side = 0.002F * static_cast<float>(column - width / 2);
+      const float x = is_tower ? -0.3F : side * depth;
+      const float y = is_tower ? 0.005F * static_cast<float>(200 - row) : 0.0F;
+      for (const float value : {x, y, is_tower ? -0.5F : -depth}) plane.values.push_back(value);
+    }
+  const std::vector<unsigned char> codes = aov_picture(plane, 1);
+  const auto code = [&](int row, int column, int channel) {
+    return static_cast<int>(codes[static_cast<std::size_t>(3 * (width * row + column) + channel)]);
+  };
+  EXPECT_EQ(code(0, width - 1, 0), 255);                     // far to the right, and away:
+  EXPECT_EQ(code(0, width - 1, 2), 0);                       // at the box's border
+  EXPECT_EQ(code(0, 0, 1), 255);                             // the top of the tower
+  EXPECT_GT(code(299, width - 1, 0), code(299, 50, 0) + 30); // from left to right
+  EXPECT_GT(code(299, 600, 2), code(100, 600, 2) + 60);      // from near to far
+  EXPECT_EQ(aov_picture(plane, 4), codes);
+}
+
 template <class Function>
 Function* reader(const char* name) {
   const fs::path module = fs::read_symlink("/proc/self/exe").parent_path() / "oiio_reader.so";
