@@ -10,7 +10,7 @@
 namespace fastrt {
 
 inline constexpr const char* oiio_module_file = "fastrt_oiio.so";
-inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_4"; // the number changes with the types
+inline constexpr const char* oiio_encode_name = "fastrt_oiio_encode_5"; // the number changes with the types
 
 // The error of a module that has not got the memory it asked for.
 inline constexpr const char* out_of_memory = "out of memory";
@@ -19,7 +19,6 @@ struct PictureToEncode {
   const char* format; // an extension without the dot
   const void* pixels; // 3 * width * height values, rows from the top: of JPEG bytes, otherwise floats
   int width, height;
-  int threads;
 };
 
 struct EncodedPicture {
@@ -59,7 +58,7 @@ using LayersEncode = int(const LayersToEncode* layers, EncodedPicture* result);
 inline constexpr const char* oiio_decode_name = "fastrt_oiio_decode_1";
 inline constexpr const char* png_jpeg_module_file = "fastrt_png_jpeg.so";
 inline constexpr const char* png_jpeg_decode_name = "fastrt_png_jpeg_decode_2";
-inline constexpr const char* png_jpeg_encode_name = "fastrt_png_jpeg_encode_2";
+inline constexpr const char* png_jpeg_encode_name = "fastrt_png_jpeg_encode_3";
 
 // A whole file in memory.
 struct PictureFile {

@@ -65,7 +65,6 @@ Bytes encode_with_module(const std::string& format, const Picture& picture) {
   request.pixels = is_jpeg(format) ? codes.data() : static_cast<const void*>(picture.linear);
   request.width = picture.width;
   request.height = picture.height;
-  request.threads = thread_count(picture.threads);
   return encode(find_encoder(format), request, request.format);
 }
 

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Texture files of every format that is read, and broken ones.
 #include "src/load/texture_file.hpp"
+#include "src/modules/open.hpp"
+#include "src/modules/pictures.hpp"
 #include "tests/unit/obj_test_support.hpp"
 
 #include <fastrt/write.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <thread>
 
 namespace fastrt::test {
 namespace {
@@ -153,6 +160,29 @@ TEST(TextureFile, WhatIsThereOfADamagedPictureIsUsed) {
     EXPECT_GT(half.image->pixel(0, 0, 0).r, 0.3F) << format;
     EXPECT_EQ(half.image->pixel(0, 0, 0).a, 1.0F) << format;
     EXPECT_EQ(half.image->pixel(0, 127, 127).a, 1.0F) << format;
+  }
+}
+
+// What may go wrong when OpenImageIO is first used goes wrong in few programs: so there are many.
+TEST(TextureFile, TheFirstOnesAreReadAtOnce) {
+  ASSERT_NE(find_oiio_function(oiio_decode_name).function, nullptr);
+  const TemporaryFolder folder;
+  const auto path = folder.write("t.ppm", text_of(encode_image("ppm", four_pixels, 2, 2, 1)));
+  for (int program = 0; program < 200; ++program) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      std::atomic<int> read{0};
+      std::vector<std::thread> threads;
+      for (int i = 0; i < 8; ++i)
+        threads.emplace_back(
+            [&] { read += read_texture(path, TextureCode::color).image != nullptr ? 1 : 0; });
+      for (std::thread& thread : threads) thread.join();
+      _exit(read == 8 ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0) << program;
   }
 }
 

@@ -31,6 +31,31 @@ int fail(Result& result, const std::string& why) {
   return 0;
 }
 
+// What `act` returns; a failure instead of what it throws.
+template <class Result, class Act>
+int guarded(Result& result, const Act& act) {
+  try {
+    return act();
+  } catch (const std::bad_alloc&) {
+    return fail(result, fastrt::out_of_memory);
+  } catch (const std::exception& error) {
+    return fail(result, error.what());
+  } catch (...) {
+    return fail(result, "an unknown failure");
+  }
+}
+
+// Once: its threads must not change in number while another file is read. The caller reads several at once.
+void settle() {
+  static const bool settled = [] {
+    OIIO::attribute("debug", 0); // it would print
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", 1);
+    return true;
+  }();
+  static_cast<void>(settled);
+}
+
 OIIO::ImageSpec spec_of(const PictureToEncode& picture) {
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("Software", "fastrt");
@@ -39,8 +64,7 @@ OIIO::ImageSpec spec_of(const PictureToEncode& picture) {
 }
 
 int encode(const PictureToEncode& picture, EncodedPicture& result) {
-  OIIO::attribute("debug", 0); // it would print
-  OIIO::attribute("threads", picture.threads);
+  settle();
   const std::string name = std::string("picture.") + picture.format;
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
   if (!output) return fail(result, OIIO::geterror());
@@ -113,9 +137,7 @@ int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, DecodedP
 }
 
 int decode(const PictureFile& file, DecodedPicture& texture) {
-  OIIO::attribute("debug", 0);
-  OIIO::attribute("threads", 1); // the caller reads several files at once
-  OIIO::attribute("exr_threads", 1);
+  settle();
   OIIO::geterror(); // forgets what this thread's last file had to say
   const std::string format = file.format;
   const std::string_view refusal =
@@ -138,28 +160,12 @@ int decode(const PictureFile& file, DecodedPicture& texture) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_4(const PictureToEncode* picture,
+extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_5(const PictureToEncode* picture,
                                                                            EncodedPicture* result) {
-  try {
-    return encode(*picture, *result);
-  } catch (const std::bad_alloc&) {
-    return fail(*result, fastrt::out_of_memory);
-  } catch (const std::exception& error) {
-    return fail(*result, error.what());
-  } catch (...) {
-    return fail(*result, "an unknown failure");
-  }
+  return guarded(*result, [&] { return encode(*picture, *result); });
 }
 
 extern "C" __attribute__((visibility("default"))) int fastrt_oiio_decode_1(const PictureFile* file,
                                                                            DecodedPicture* texture) {
-  try {
-    return decode(*file, *texture);
-  } catch (const std::bad_alloc&) {
-    return fail(*texture, fastrt::out_of_memory);
-  } catch (const std::exception& error) {
-    return fail(*texture, error.what());
-  } catch (...) {
-    return fail(*texture, "an unknown failure");
-  }
+  return guarded(*texture, [&] { return decode(*file, *texture); });
 }

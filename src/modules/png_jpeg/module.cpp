@@ -11,6 +11,6 @@ fastrt_png_jpeg_decode_2(const fastrt::PictureFile* file, fastrt::DecodedPicture
 }
 
 extern "C" __attribute__((visibility("default"))) int
-fastrt_png_jpeg_encode_2(const fastrt::PictureToEncode* picture, fastrt::EncodedPicture* result) {
+fastrt_png_jpeg_encode_3(const fastrt::PictureToEncode* picture, fastrt::EncodedPicture* result) {
   return fastrt::encode_jpeg(*picture, *result) ? 1 : 0;
 }
