@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstring>
 #include <thread>
 
 namespace fastrt::test {
@@ -161,6 +162,29 @@ TEST(TextureFile, WhatIsThereOfADamagedPictureIsUsed) {
     EXPECT_EQ(half.image->pixel(0, 0, 0).a, 1.0F) << format;
     EXPECT_EQ(half.image->pixel(0, 127, 127).a, 1.0F) << format;
   }
+}
+
+// libtiff says nothing of a strip without bytes, and OpenImageIO takes what it said last for the reason.
+TEST(TextureFile, TheFaultOfATiffIsItsOwn) {
+  const TemporaryFolder folder;
+  constexpr int width = 256, height = 340; // two strips
+  std::string bytes =
+      text_of(encode_image("tif", std::vector<float>(3 * width * height, 0.5F), width, height, 1));
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, &bytes[at], sizeof number);
+    return number;
+  };
+  constexpr std::size_t sizes_of_strips = 8; // among the fields of the directory
+  bytes.replace(number_at(number_at(4) + 2 + 12 * sizes_of_strips + 8) + 4, 4, 4, '\0');
+  const TextureFile other = read_texture(folder.write("a.tif", std::string("II*\0x", 5)), TextureCode::color);
+  EXPECT_NE(other.fault.find("TIFF header"), std::string::npos) << other.fault;
+  const TextureFile file = read_texture(folder.write("b.tif", bytes), TextureCode::color);
+  EXPECT_NE(file.fault.find("is damaged"), std::string::npos) << file.fault;
+  EXPECT_EQ(file.fault.find("TIFF header"), std::string::npos) << file.fault;
+  ASSERT_NE(file.image, nullptr);
+  EXPECT_GT(file.image->pixel(0, 0, 0).g, 0.4F);
+  EXPECT_EQ(file.image->pixel(0, 0, height - 1).g, 0.0F);
 }
 
 // What may go wrong when OpenImageIO is first used goes wrong in few programs: so there are many.

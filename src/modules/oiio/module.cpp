@@ -13,6 +13,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace {
 
@@ -123,7 +124,8 @@ int read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, T opaque, DecodedP
   const int channels = std::min(spec.nchannels, 4);
   const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   const std::unique_ptr<T[]> read(new T[pixels * static_cast<std::size_t>(channels)]());
-  if (!input.read_image(0, 0, 0, channels, type, read.get())) {
+  // It can succeed for a TIFF of which nothing could be read.
+  if (!input.read_image(0, 0, 0, channels, type, read.get()) || input.has_error()) {
     texture.is_damaged = 1;
     fail(texture, input.geterror());
   }
@@ -158,6 +160,14 @@ int decode(const PictureFile& file, DecodedPicture& texture) {
   return read_pixels<unsigned char>(*input, OIIO::TypeDesc::UINT8, 255, texture);
 }
 
+// In a thread of its own: the last words of libtiff are kept for each thread, and may be taken for the reason
+// why another file can't be read.
+int decode_tiff(const PictureFile& file, DecodedPicture& texture) {
+  int done = 0;
+  std::thread([&] { done = guarded(texture, [&] { return decode(file, texture); }); }).join();
+  return done;
+}
+
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_5(const PictureToEncode* picture,
@@ -167,5 +177,8 @@ extern "C" __attribute__((visibility("default"))) int fastrt_oiio_encode_5(const
 
 extern "C" __attribute__((visibility("default"))) int fastrt_oiio_decode_1(const PictureFile* file,
                                                                            DecodedPicture* texture) {
-  return guarded(*texture, [&] { return decode(*file, *texture); });
+  return guarded(*texture, [&] {
+    const bool is_tiff = std::string_view(file->format) == "tiff";
+    return is_tiff ? decode_tiff(*file, *texture) : decode(*file, *texture);
+  });
 }
