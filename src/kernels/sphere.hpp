@@ -25,7 +25,8 @@ FASTRT_INLINE SphereLanes<F> intersect_sphere(const V3<F>& center, const F& radi
   const MaskOf<F> meets = q2 >= F(0.0F);
   if ((to_bits(meets) & asked) == 0) return {from_bits<width_of<F>>(0), F(0.0F)};
   const F c = dot(f, f) - radius * radius;
-  const F q = b + flip(sqrt(a * q2), sign_bit(b));
+  // The root of a * q2 would overflow for a large sphere and a distant light.
+  const F q = b + flip(sqrt(a) * sqrt(q2), sign_bit(b));
   const F t0 = c / q;
   const F t1 = q / a;
   const F nearer = min(t0, t1);

@@ -130,7 +130,7 @@ inline Intersection intersect_sphere(const Ray& ray, const SphereShape& sphere) 
   if (!(discriminant >= 0.0F)) return {false, ray.t_max, 0, 0};
 
   const float c = glm::dot(f, f) - sphere.radius * sphere.radius;
-  const float q = b + std::copysign(std::sqrt(a * discriminant), b);
+  const float q = b + std::copysign(std::sqrt(a) * std::sqrt(discriminant), b);
   const float t0 = c / q;
   const float t1 = q / a;
   const float near = min(t0, t1);

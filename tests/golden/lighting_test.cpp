@@ -64,6 +64,24 @@ TEST_P(Lighting, BallShadowOfAPointLight) {
   EXPECT_GT(frame.rays.shadow, 0U);
 }
 
+// All of it 2^27 times as large.
+TEST_P(Lighting, LargeBallsThrowShadowsOfDistantLights) {
+  constexpr float size = 0x1p27F;
+  const Vec3 lamp(-2048, 8192, 1024);
+  SceneBuilder builder;
+  builder.set_ambient(Vec3(0.125F));
+  builder.add_light(point_light(size * lamp));
+  builder.add_sphere(size * Vec3(ball.center), size * 0.5F, builder.add_material(glowing({1, 0, 0})));
+  add_quad(builder, size * Vec3(-100, 0, -100), {200 * size, 0, 0}, {0, 0, 200 * size},
+           builder.add_material(matte(0.5F)));
+  Camera camera = above_floor;
+  camera.eye *= size;
+  const RenderSettings settings = settings_of(150, 100);
+  const Pinhole pinhole(above_floor, settings);
+  expect_pixels(render(builder, camera, settings), pinhole, 1e-5,
+                floor_prediction(pinhole, [&](const DVec3& point) { return DVec3(lamp) - point; }));
+}
+
 TEST_P(Lighting, BallShadowOfTheSun) {
   SceneBuilder builder = floor_with_ball(sunlight({2, -5, -1}));
   const RenderSettings settings = settings_of(150, 100);

@@ -159,6 +159,21 @@ TEST(ReferenceSphere, IsGrazedAtOnePoint) {
   EXPECT_EQ(found.t, 5.0F);
 }
 
+TEST(ReferenceSphere, IsHitWhateverTheLengths) {
+  for (const float radius : {1e-12F, 1e-8F, 1.0F, 1e8F, 1e12F})
+    for (const float length : {1e-12F, 1e-8F, 1.0F, 1e8F, 1e12F}) {
+      const Vec3 side(0, 0.6F * radius, 0), way(0, 0, -length);
+      const float t = radius / length;
+      const Intersection outside =
+          intersect_sphere(ray_of(side + Vec3(0, 0, 3 * radius), way), {{0, 0, 0}, radius});
+      ASSERT_TRUE(outside.hit) << radius << ' ' << length;
+      EXPECT_NEAR(outside.t / t, 2.2, 1e-5) << radius << ' ' << length;
+      const Intersection inside = intersect_sphere(ray_of(side, way), {{0, 0, 0}, radius});
+      ASSERT_TRUE(inside.hit) << radius << ' ' << length;
+      EXPECT_NEAR(inside.t / t, 0.8, 1e-5) << radius << ' ' << length;
+    }
+}
+
 std::optional<Real> exact(const Ray& ray, const SphereShape& sphere) {
   const RealVec d(ray.direction);
   const RealVec f = RealVec(ray.origin) - RealVec(sphere.center);
