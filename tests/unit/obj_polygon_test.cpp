@@ -161,7 +161,8 @@ std::vector<Vec3> zigzag(std::size_t count, double height, double angle) {
   return corners;
 }
 
-// Testing each ear against each corner takes 20 s for the slowest of these; all together take one.
+// Testing each ear against each corner takes 20 s for the slowest of these, a minute for all. In Debug, with
+// sanitizers, they take 6 s.
 TEST(ObjPolygon, LargeZigzagsAreQuick) {
   expect_whole_everywhere(zigzag(100, 3, 0.5), "zigzag");
   const auto start = std::chrono::steady_clock::now();
@@ -171,7 +172,7 @@ TEST(ObjPolygon, LargeZigzagsAreQuick) {
     EXPECT_FALSE(made.result.tangled) << degrees;
     EXPECT_EQ(made.triangles.size(), corners.size() - 2) << degrees;
   }
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
 }
 
 TEST(ObjPolygon, TangledOnesBecomeFans) {
