@@ -123,7 +123,7 @@ Course make_course(const SceneDesc& desc, const std::vector<Isa>& isas, int thre
 std::vector<TraversalResult> measure_traversal(const Course& course, const RaySet& set,
                                                const CompareOptions& options) {
   const Contender first = fastrt_contender(course.isas.front().tracer, course.isas.front().isa);
-  const Share share = share_for(first, set, {1, options.rounds, options.seconds});
+  const Share share = share_for(first, set, options.seconds);
   std::vector<TraversalResult> results;
   for (const int threads : options.threads)
     results.push_back(measure(course, {set, {threads, options.rounds, options.seconds}, share}));

@@ -89,12 +89,12 @@ double rays_per_second(const Contender& contender, const RaySet& set, int thread
   return rate;
 }
 
-Share share_for(const Contender& contender, const RaySet& set, const RoundSettings& settings) {
+Share share_for(const Contender& contender, const RaySet& set, double seconds) {
   const std::size_t chunks = chunk_count(set);
   const std::size_t coarse = std::max<std::size_t>(1, chunks / 16);
   const double rate = rays_per_second(contender, set, 1, {.step = coarse});
   // How many times too long the whole set takes.
-  const double excess = static_cast<double>(set.ray_count) / (rate * settings.seconds);
+  const double excess = static_cast<double>(set.ray_count) / (rate * seconds);
   return {.step = std::clamp<std::size_t>(static_cast<std::size_t>(excess), 1, coarse),
           .passes = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(1.0 / excess)))};
 }

@@ -30,8 +30,8 @@ struct Share {
   std::size_t step = 1, passes = 1;
 };
 
-// So that this contender takes about settings.seconds.
-Share share_for(const Contender& contender, const RaySet& set, const RoundSettings& settings);
+// So that this contender takes each thread about so many seconds.
+Share share_for(const Contender& contender, const RaySet& set, double seconds);
 
 // Rays per second of tracing, of all threads together. Time is each thread's CPU time, so that being pushed
 // off a core does not count; loading is not timed.

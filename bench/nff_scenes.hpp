@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // NFF scenes in the words of other renderers, so that all show the same view of the same things: POV-Ray
-// reads no NFF, and Tachyon takes less of the picture's middle and loses polygons of many corners when it
-// does.
+// reads no NFF, and what Tachyon makes of it is a wider view without polygons of many corners.
 #pragma once
 
 #include <filesystem>

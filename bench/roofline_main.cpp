@@ -147,7 +147,7 @@ Cost cost_of(Stepper& stepper, const Tracer& tracer, const EmbreeScene* embree, 
              const Options& options) {
   const RoundSettings settings{1, 5, 0.03};
   const Contender fastrt = fastrt_contender(tracer, options.isa);
-  const Share share = share_for(fastrt, set, settings);
+  const Share share = share_for(fastrt, set, settings.seconds);
   Cost cost;
   cost.rays = set.name;
   cost.rate = spread_of(run_rounds(std::span(&fastrt, 1), set, settings, share)[0]).median;

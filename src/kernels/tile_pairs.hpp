@@ -62,10 +62,7 @@ FASTRT_INLINE void list_by_groups(const View& view, const TriangleRun& run, cons
   const PacketI reach = PacketI::load_aligned(reinterpret_cast<const std::int32_t*>(reached));
   for (; groups != 0; groups &= groups - 1) {
     const int g = __builtin_ctz(groups);
-    PacketM met = (r.x0 <= PacketF(all.x1[g])) & (r.x1 >= PacketF(all.x0[g])) & (r.y0 <= PacketF(all.y1[g])) &
-                  (r.y1 >= PacketF(all.y0[g])) & (r.near <= PacketF(all.far[g]));
-    if (View::begins_apart) met = met & (r.end >= PacketF(all.begin[g]));
-    met = met & triangles_around(edges, all, g);
+    const PacketM met = touching_rectangles<View::begins_apart>(all, r, g) & triangles_around(edges, all, g);
     const std::uint32_t bits =
         to_bits(met) & to_bits(simd::bool_cast((reach & PacketI(1 << g)) != PacketI(0)));
     append_pairs(numbers_above(20) | PacketI(g << 16), bits, list);

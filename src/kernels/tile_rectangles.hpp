@@ -37,12 +37,12 @@ FASTRT_INLINE Rectangles<F> project_extent(const TileFrame& f, const F& u0, cons
           w1};
 }
 
-// One of them, for looking at single rays.
+// One rectangle, for looking at single rays.
 struct LoneRectangle {
   float x0, x1, y0, y1;
 };
 
-// The same as columns.
+// Rectangles as columns.
 template <class F>
 struct StoredRectangles {
   alignas(sizeof(F)) float x0[width_of<F>], x1[width_of<F>], y0[width_of<F>], y1[width_of<F>],
@@ -77,6 +77,16 @@ FASTRT_INLINE std::uint32_t touched_groups(const TileGroups& groups, const Store
   return bits;
 }
 
+// The rectangles that touch group g, as far as it looks.
+template <bool apart, class F>
+FASTRT_INLINE MaskOf<F> touching_rectangles(const TileGroups& groups, const Rectangles<F>& r, int g) {
+  const MaskOf<F> touching = (r.x0 <= F(groups.x1[g])) & (r.x1 >= F(groups.x0[g])) &
+                             (r.y0 <= F(groups.y1[g])) & (r.y1 >= F(groups.y0[g])) &
+                             (r.near <= F(groups.far[g]));
+  if constexpr (apart) return touching & (r.end >= F(groups.begin[g]));
+  return touching;
+}
+
 // About as many groups can be held against all rectangles at once in the time that `rectangle_cost /
 // group_cost` rectangles take to be held against all groups.
 inline constexpr int group_cost = 5, rectangle_cost = widest == batch_groups ? 7 : 10;
@@ -91,9 +101,7 @@ FASTRT_INLINE std::uint32_t touch_groups(const TileGroups& all, const Rectangles
     std::uint32_t some = 0;
     for (; groups != 0; groups &= groups - 1) {
       const int g = __builtin_ctz(groups);
-      MaskOf<F> met = (r.x0 <= F(all.x1[g])) & (r.x1 >= F(all.x0[g])) & (r.y0 <= F(all.y1[g])) &
-                      (r.y1 >= F(all.y0[g])) & (r.near <= F(all.far[g]));
-      if (apart) met = met & (r.end >= F(all.begin[g]));
+      const MaskOf<F> met = touching_rectangles<apart>(all, r, g);
       bits = select_ints<F>(met, bits | IntsOf<F>(static_cast<std::int32_t>(1U << g)), bits);
       some |= to_bits(met);
     }

@@ -38,7 +38,7 @@ FASTRT_INLINE void prefetch_child(const GeometryView& scene, std::uint32_t child
 
 // Puts the children that some of `groups` touch onto the stack. What comes first is on top: of rays that look
 // for the closest hit the nearest child, of others the largest one, which is likeliest to hold something in
-// their way. That is the last one.
+// their way. That is the last one. (Those push without a branch: what nothing touches is written over.)
 template <bool any, class View>
 FASTRT_INLINE TileEntry* push_children(const TileTraversal<any, View>& tile, const WideNode& node,
                                        std::uint32_t groups, TileEntry* top) {

@@ -43,9 +43,9 @@ public:
   std::vector<TomlPart> run(const TomlEntry& entry) {
     if (entry.node.table() == nullptr)
       toml_fail(file_.name, entry.node.place, "prototype: expected tables [prototype.NAME]");
-    const auto begin = row_counts(scene_.desc);
+    const auto begin = checked_row_counts(scene_.desc);
     read_lists(entry, false);
-    if (row_counts(scene_.desc) != begin) push({scene_.add_prototype(begin), TomlMap{}});
+    if (checked_row_counts(scene_.desc) != begin) push({scene_.add_prototype(begin), TomlMap{}});
     read_lists(entry, true);
     if (parts_.empty())
       toml_fail(file_.name, entry.node.place, "prototype " + in_quotes(entry.key) + " holds nothing");
@@ -71,9 +71,9 @@ private:
     const TomlFields fields = shape_fields(file_, shape, node);
     const bool is_placed = is_placed_by(fields);
     if (is_placed != placed) return;
-    const auto begin = row_counts(scene_.desc);
+    const auto begin = checked_row_counts(scene_.desc);
     shape.add(file_, fields, scene_);
-    if (!placed || row_counts(scene_.desc) == begin) return;
+    if (!placed || checked_row_counts(scene_.desc) == begin) return;
     const TomlPart part{scene_.add_prototype(begin), TomlMap{}};
     const std::vector<TomlMap> placements = read_placements(fields);
     check_room(fields, placements.size());
@@ -154,9 +154,9 @@ void read_toml_instance(const TomlFile& file, const TomlNode& node, TomlScene& s
 void read_toml_shape(const TomlFile& file, const TomlShape& shape, const TomlNode& node, TomlScene& scene) {
   const TomlFields fields = shape_fields(file, shape, node);
   const std::vector<TomlMap> placements = read_placements(fields);
-  const auto begin = row_counts(scene.desc);
+  const auto begin = checked_row_counts(scene.desc);
   shape.add(file, fields, scene);
-  if (placements.empty() || row_counts(scene.desc) == begin) return;
+  if (placements.empty() || checked_row_counts(scene.desc) == begin) return;
   // One copy is the object that the primitive is anyway.
   scene.add_instances(fields, {{scene.add_prototype(begin), TomlMap{}}}, placements,
                       placements.size() > 1 ? fields.find("name") : std::nullopt, no_index);

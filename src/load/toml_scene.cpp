@@ -68,7 +68,7 @@ const std::vector<TomlPart>& TomlScene::prototype(const TomlValue& name) const {
 }
 
 std::uint32_t TomlScene::add_prototype(const std::array<std::uint32_t, 5>& begin) {
-  desc.prototypes.push_back({begin, row_counts(desc)});
+  desc.prototypes.push_back({begin, checked_row_counts(desc)});
   return checked_size(desc.prototypes.size() - 1, "prototypes");
 }
 

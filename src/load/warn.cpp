@@ -14,7 +14,7 @@ namespace {
 // Those of prototypes are seen in instances alone.
 bool has_primitives(const SceneDesc& desc) {
   if (desc.planes.size() != 0 || desc.instances.size() != 0) return true;
-  auto rows = row_counts(desc);
+  auto rows = checked_row_counts(desc);
   for (const Prototype& prototype : desc.prototypes)
     for (std::size_t kind = 0; kind < rows.size(); ++kind)
       rows[kind] -= prototype.end[kind] - prototype.begin[kind];

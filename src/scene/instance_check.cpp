@@ -19,7 +19,7 @@ namespace {
 }
 
 void check_ranges(const SceneDesc& desc) {
-  const std::array<std::size_t, 5> counts = counts_of_rows(desc);
+  const std::array<std::size_t, 5> counts = row_counts(desc);
   for (std::size_t i = 0; i < desc.prototypes.size(); ++i)
     for (std::size_t kind = 0; kind < 5; ++kind) {
       const std::uint32_t begin = desc.prototypes[i].begin[kind], end = desc.prototypes[i].end[kind];

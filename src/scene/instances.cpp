@@ -44,7 +44,7 @@ double growth_of(const Affine& map, const Vec3d (&rows)[3]) {
 
 KindRanges world_rows(const SceneDesc& desc) {
   KindRanges world;
-  const std::array<std::size_t, 5> counts = counts_of_rows(desc);
+  const std::array<std::size_t, 5> counts = row_counts(desc);
   for (std::size_t kind = 0; kind < world.size(); ++kind) {
     const auto count = static_cast<std::uint32_t>(counts[kind]);
     std::vector<RowRange> taken;

@@ -178,13 +178,13 @@ std::uint32_t SceneBuilder::add_plane(const Vec3& point, const Vec3& normal, std
 
 void SceneBuilder::begin_prototype() {
   if (open_) throw InputError("a prototype can't be part of another one");
-  open_ = Prototype{row_counts(desc_), {}};
+  open_ = Prototype{checked_row_counts(desc_), {}};
 }
 
 std::uint32_t SceneBuilder::end_prototype() {
   if (!open_) throw InputError("a prototype ends that has not begun");
   const std::uint32_t id = checked_size(desc_.prototypes.size(), "prototypes");
-  open_->end = row_counts(desc_);
+  open_->end = checked_row_counts(desc_);
   desc_.prototypes.push_back(*open_);
   open_.reset();
   return id;

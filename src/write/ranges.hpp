@@ -6,9 +6,12 @@
 
 #include <fastrt/math.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace fastrt {
 
